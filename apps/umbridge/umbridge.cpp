@@ -18,6 +18,9 @@ struct Refusal {
   std::string type, message;
 };
 
+constexpr char kStopped[] =
+    "the motion was stopped before its end: it took longer than the server allows, or the server ended";
+
 [[noreturn]] void refuse(const std::string& message) { throw Refusal{400, "InvalidInput", message}; }
 
 std::vector<double> numbers(const Json& list, const std::string& key) {
@@ -84,14 +87,12 @@ UmBridgeAnswer UmBridge::evaluate(const Json& request, const std::atomic<bool>& 
   const auto start = std::chrono::steady_clock::now();
   const Outcome outcome = function_->at(point, stop);
   const double seconds = seconds_since(start);
-  if (outcome.status == Outcome::Status::not_reached)
-    throw Refusal{503, "Stopped",
-                  "the motion was stopped before its end: it took longer than the server allows, or the server ended"};
+  if (outcome.status == Outcome::Status::not_reached) throw Refusal{503, "Stopped", kStopped};
   if (outcome.status == Outcome::Status::failed) throw Refusal{500, "ComputationFailed", outcome.message};
   return {200, Json{{"output", {{outcome.value}}}}.dump(), seconds};
 }
 
-UmBridgeAnswer UmBridge::slopes(const Json& request, bool gradient) const {
+UmBridgeAnswer UmBridge::slopes(const Json& request, bool gradient, const std::atomic<bool>& stop) const {
   check_which(request, "outWrt");
   check_which(request, "inWrt");
   const std::vector<double> point = point_of(request);
@@ -99,7 +100,7 @@ UmBridgeAnswer UmBridge::slopes(const Json& request, bool gradient) const {
       numbers(request, gradient ? "sens" : "vec", gradient ? 1 : function_->inputs().size());
   if (const std::string why = function_->why_no_slopes(); !why.empty()) throw Refusal{400, "UnsupportedFeature", why};
   const auto start = std::chrono::steady_clock::now();
-  std::vector<double> by = function_->slopes_at(point).by;
+  std::vector<double> by = function_->slopes_at(point, stop).by;
   const double seconds = seconds_since(start);
   if (gradient)
     for (double& slope : by) slope *= factor[0];
@@ -130,8 +131,8 @@ UmBridgeAnswer UmBridge::answer(const std::string& endpoint, const std::string& 
     if (endpoint == "/InputSizes") return {200, Json{{"inputSizes", {function_->inputs().size()}}}.dump(), 0.0};
     if (endpoint == "/OutputSizes") return {200, Json{{"outputSizes", {1}}}.dump(), 0.0};
     if (endpoint == "/Evaluate") return evaluate(request, stop);
-    if (endpoint == "/Gradient") return slopes(request, true);
-    if (endpoint == "/ApplyJacobian") return slopes(request, false);
+    if (endpoint == "/Gradient") return slopes(request, true, stop);
+    if (endpoint == "/ApplyJacobian") return slopes(request, false, stop);
     if (endpoint == "/ApplyHessian")
       throw Refusal{400, "UnsupportedFeature", "a motion through impacts has no second derivatives here"};
     throw Refusal{404, "NotFound", "found " + endpoint + ", expected an address of UM-Bridge's protocol 1.0"};
@@ -144,7 +145,7 @@ UmBridgeAnswer UmBridge::answer(const std::string& endpoint, const std::string& 
   } catch (const ComputationError& error) {
     return umbridge_error(500, "ComputationFailed", error.what());
   } catch (const Interrupted&) {
-    return umbridge_error(503, "Stopped", "the server ended");
+    return umbridge_error(503, "Stopped", kStopped);
   }
 }
 

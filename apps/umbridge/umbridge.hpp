@@ -42,7 +42,7 @@ class UmBridge {
 
  private:
   UmBridgeAnswer evaluate(const nlohmann::json& request, const std::atomic<bool>& stop) const;
-  UmBridgeAnswer slopes(const nlohmann::json& request, bool gradient) const;
+  UmBridgeAnswer slopes(const nlohmann::json& request, bool gradient, const std::atomic<bool>& stop) const;
 
   std::shared_ptr<const IndexFunction> function_;
   std::string name_;

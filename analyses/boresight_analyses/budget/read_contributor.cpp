@@ -10,6 +10,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/budget/budget_keys.hpp"
 #include "boresight_analyses/budget/budget_runs.hpp"
+#include "boresight_analyses/budget/contributor_size.hpp"
 #include "boresight_analyses/budget/line_kinds.hpp"
 #include "boresight_analyses/budget/read_correlations.hpp"
 #include "boresight_analyses/budget/read_measured_course.hpp"
@@ -141,10 +142,8 @@ void read_through_of_class(Cursor& table, const BudgetPlan& plan, Contributor& c
     c.through = in_a_row(through);
 }
 
-}  // namespace
-
-Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuantity quantity,
-                             const MechanismDescription& mechanism) {
+Contributor read_any_size(Cursor& table, const BudgetPlan& plan, PointingQuantity quantity,
+                          const MechanismDescription& mechanism) {
   const BudgetAxes axes(quantity);
   table.only(budget_contributor_keys());
   Contributor c;
@@ -207,6 +206,24 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuan
   c.group = table.text("group", "");
   table.finish();
   return c;
+}
+
+}  // namespace
+
+Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuantity quantity,
+                             const MechanismDescription& mechanism) {
+  Contributor c = read_any_size(table, plan, quantity, mechanism);
+  const double size = largest_size(c, plan.windows, plan.duration, samples_of(plan));
+  if (size <= kLargestExternalError) return c;
+  const std::string unit = c.of_error                                     ? c.of_error->si_unit
+                           : quantity != PointingQuantity::position_error ? "rad"
+                                                                          : "m";
+  char found[80], expected[80];
+  std::snprintf(found, sizeof found, "errors of up to %.3g %s", size, unit.c_str());
+  std::snprintf(expected, sizeof expected, "none above %.0g %s", kLargestExternalError, unit.c_str());
+  for (const char* key : {"measured", "spectrum", "course", "value", "distribution"})
+    if (table.has(key)) table.fail_found(key, std::isfinite(size) ? found : "errors that no number holds", expected);
+  throw InputError(table.origin(), table.path(), found, expected);
 }
 
 }  // namespace boresight

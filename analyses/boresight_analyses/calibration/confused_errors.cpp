@@ -102,7 +102,12 @@ std::vector<ConfusedErrors> confused_errors(const CalibrationProblem& problem, c
   };
   const double s2 = known.variance_factor, least_seen = 1.0 / (kUnknown * kUnknown);
   const Directions seen = directions_of(eliminated(known.data_information, errors, others) / s2);
-  const Directions all = directions_of(eliminated(known.information, errors, others) / s2);
+  const Directions all = directions_of(eliminated(known.information, errors, others));
+  // What the other unknowns do as these move, and what was known before of both.
+  const MatX led = others.empty()
+                       ? MatX(0, count)
+                       : solve_least(MatX(known.information(others, others)), MatX(known.information(others, errors)));
+  const VecX told = problem.prior_information();
   const MatX alone = known.data_information(errors, errors) / s2;
   const int unseen = static_cast<int>((seen.values.array() < least_seen).count());
   if (unseen == 0) return {};
@@ -118,15 +123,16 @@ std::vector<ConfusedErrors> confused_errors(const CalibrationProblem& problem, c
   std::vector<bool> unknown(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) unknown[static_cast<std::size_t>(i)] = !(deviation(i) < kUnknown);
   const auto variance = [&](const VecX& c) {
-    double sum = 0.0, growth = 1.0;
+    VecX y = VecX::Zero(count);  // M^-1 c
     for (int k = 0; k < count; ++k)
-      sum += std::pow(c.dot(all.vectors.col(k)), 2) / std::max(all.values[k], kLeastInformation / s2);
-    // Residuals that follow one another widen errors.
-    for (int i = 0; i < count; ++i) {
-      const int g = errors[static_cast<std::size_t>(i)];
-      if (c[i] != 0.0) growth = std::max(growth, known.covariance(g, g) / (s2 * known.white_covariance(g, g)));
-    }
-    return growth * sum;
+      y += c.dot(all.vectors.col(k)) / std::max(all.values[k], kLeastInformation) * all.vectors.col(k);
+    const VecX y_others = led * y;
+    const double of_the_told =
+        told(errors).dot(y.cwiseAbs2()) + (others.empty() ? 0.0 : told(others).dot(y_others.cwiseAbs2()));
+    double growth = 1.0;
+    for (int i = 0; i < count; ++i)
+      if (c[i] != 0.0) growth = std::max(growth, known.growth[errors[static_cast<std::size_t>(i)]]);
+    return growth * (s2 * c.dot(y) - (s2 - 1.0) * of_the_told);  // as in inference.hpp
   };
   std::vector<int> parent(static_cast<std::size_t>(count));
   std::iota(parent.begin(), parent.end(), 0);

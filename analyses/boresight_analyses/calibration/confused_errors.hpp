@@ -46,7 +46,8 @@ struct KnownOfErrors {
   MatX data_information;         // without priors
   MatX information;              // with them
   double variance_factor = 1.0;  // s^2
-  MatX covariance, white_covariance;
+  MatX covariance;
+  VecX growth;             // of variances, since residuals follow one another
   double quantile = 1.96;  // of the intervals
 };
 

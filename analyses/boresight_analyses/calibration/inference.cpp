@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "boresight/math/eigenvalues.hpp"
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/calibration/channel_noise.hpp"
 #include "boresight_analyses/statistics/effective_samples.hpp"
 
@@ -64,7 +65,8 @@ static void assess_error(const FittedParameter& parameter, ParameterEstimate& e)
   if (parameter.at_bound(parameter.coordinate(e.value)))
     e.reason = "the fit ran into the bound of what is allowed for it";
   else if (parameter.has_prior)
-    e.reason = "its standard error is " + number("%.2g %%", 100.0 * share) + " of what was known before";
+    e.reason = "its standard error is " + (share < kSaidAsMultiple ? relative_text(share) + " of what was known before"
+                                                                   : relative_text(share, 2, "what was known before"));
   else
     e.reason =
         (e.identifiable ? "known to " : "its standard error is ") + number("%.2g", e.standard_error) + " " + e.si_unit;
@@ -77,7 +79,8 @@ void assess_identifiability(const FittedParameter& parameter, ParameterEstimate&
   if (parameter.at_bound(parameter.coordinate(e.value))) {
     e.reason = "the fit ran into the bound of what is allowed for it: the data ask for less or more, or for nothing";
   } else if (!(share < kUnknown)) {
-    e.reason = "its standard error is " + number("%.0f %%", 100.0 * share) + " of it";
+    e.reason =
+        "its standard error is " + (share < kSaidAsMultiple ? relative_text(share) + " of it" : relative_text(share));
   } else {
     e.identifiable = true;
     e.reason = "known to " + number("%.2g %%", 100.0 * share);
@@ -174,10 +177,14 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   out.per_independent_one =
       values_per_independent_one(until_lost, noise, static_cast<double>(out.values), out.unknowns);
   const MatX inverse = inverse_of(out.information, free);
-  // s^2 is the data's: what was known before is known as well as it was told.
-  out.covariance =
-      inverse_of(data_information / out.variance_factor + MatX(problem.prior_information().asDiagonal()), free);
+  MatX bread = inverse;
+  for (double& v : bread.reshaped())
+    if (std::isnan(v)) v = 0.0;
+  const MatX told = bread * problem.prior_information().asDiagonal() * bread;
+  // M^-1 (s^2 H + Q) M^-1, without the difference of large numbers where the data see nothing.
+  out.covariance = out.variance_factor * inverse - (out.variance_factor - 1.0) * told;
   out.white_covariance = inverse;
+  out.growth = VecX::Ones(G);
   if (out.autocorrelation > noise) {
     int lost = 1;
     while (lost + 1 < static_cast<int>(until_lost.size()) && until_lost[static_cast<std::size_t>(lost)] > noise) ++lost;
@@ -190,15 +197,12 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
         const MatX cross = part.scores.topRows(rest).transpose() * part.scores.bottomRows(rest);
         meat += (1.0 - l / (out.lags + 1.0)) * (cross + cross.transpose());
       }
-    MatX bread = inverse;
-    for (double& v : bread.reshaped())
-      if (std::isnan(v)) v = 0.0;
-    const MatX robust = out.values / freedom * bread * meat * bread;
+    const MatX robust = out.values / freedom * bread * meat * bread + told;
     // Never narrower than the white ones.
     for (int g : free) {
-      const double grow = std::sqrt(std::max(1.0, robust(g, g) / out.covariance(g, g)));
-      out.covariance.row(g) *= grow;
-      out.covariance.col(g) *= grow;
+      out.growth[g] = std::max(1.0, robust(g, g) / out.covariance(g, g));
+      out.covariance.row(g) *= std::sqrt(out.growth[g]);
+      out.covariance.col(g) *= std::sqrt(out.growth[g]);
     }
   }
   const VecX deviation = out.covariance.diagonal().cwiseSqrt();
@@ -206,9 +210,12 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   Eigen::SelfAdjointEigenSolver<MatX> eigen(out.information.topLeftCorner(P, P) / out.variance_factor);
   out.rank = static_cast<int>((eigen.eigenvalues().array() > 1.0 / (kUnknown * kUnknown)).count());
 
-  const double quantile = nothing_left
-                              ? boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence)
+  const double normal = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence),
+               quantile = nothing_left
+                              ? normal
                               : boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
+  out.quantile = quantile;
+  out.student = quantile / normal;
   const std::vector<std::string> names = problem.global_names();
   for (int g = 0; g < G; ++g) {
     ParameterEstimate e;
@@ -246,7 +253,7 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   }
   out.confused = confused_errors(
       problem, fit.globals,
-      {data_information, out.information, out.variance_factor, out.covariance, out.white_covariance, quantile}, fixed);
+      {data_information, out.information, out.variance_factor, out.covariance, out.growth, quantile}, fixed);
   for (const ConfusedErrors& group : out.confused) {
     for (const int p : group.parameters) {
       ParameterEstimate& e = out.parameters[static_cast<std::size_t>(p)];

@@ -4,6 +4,8 @@
 //   information                        H = sum A' W J_g
 //   white residuals                    cov = s^2 H^-1,  s^2 = sum psi^2 / (N - k) / mean psi'
 //                                      Huber (1981), section 7.6
+//   with what was known before, Q      cov = M^-1 (s^2 H + Q) M^-1,  M = H + Q: the fit weighs both by the noise that it was told, and
+//                                      its errors are those of that fit; what was known before is known as well as it was told
 //   residuals that follow one another  cov = H^-1 (sum_l b_l sum_i s_i s_(i+l)') H^-1,  s_i = sum over channels of A_i psi_i,
 //                                      with Bartlett weights b_l = 1 - |l| / (L + 1): Newey and West (1987)
 //
@@ -44,12 +46,15 @@ struct Inference {
   std::vector<ParameterEstimate> parameters;  // then time offset and biases
   MatX information, covariance, correlation;  // in coordinates, priors included; of the same
   MatX white_covariance;                      // inverse information, without s^2
+  VecX growth;                                // of each variance, since residuals follow one another; no less than 1
   double variance_factor = 1.0;               // s^2
   double autocorrelation = 0.0;               // of neighbouring residuals
   int lags = 0;                               // L; 0: residuals are taken as white
   double per_independent_one = 1.0;           // residuals of a channel: statistics/effective_samples.hpp
   long values = 0;                            // N
   int unknowns = 0;                           // k, start states included
+  double quantile = 1.96;                     // half of an interval over its error: Student's of N - k
+  double student = 1.0;                       // that, over a normal's
   int rank = 0;                               // directions of the parameters that the data see
   std::vector<ConfusedErrors> confused;       // standing errors that the data cannot tell apart
   std::vector<int> impacts;                   // per clearance, in the fitted windows

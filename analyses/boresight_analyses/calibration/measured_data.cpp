@@ -1,5 +1,8 @@
 #include "boresight_analyses/calibration/measured_data.hpp"
 
+#include <cmath>
+#include <cstdio>
+
 #include "boresight_analyses/calibration/measured_table.hpp"
 
 namespace boresight {
@@ -30,6 +33,22 @@ Vec3 MeasuredData::place_of(int channel) const {
   for (std::size_t c = 0; c < place_B.size(); ++c)
     if (channels[c] == channel) return place_B[c];
   return Vec3::Zero();
+}
+
+std::string exact_text_of(const MeasuredData& data) {
+  std::string out = "t";
+  for (const int c : data.channels) out += std::string(" ") + channel_names()[static_cast<std::size_t>(c)].name;
+  char text[40];
+  for (std::size_t i = 0; i < data.time.size(); ++i) {
+    std::snprintf(text, sizeof text, "\n%.17g", data.time[i]);
+    out += text;
+    for (Eigen::Index c = 0; c < data.value.cols(); ++c) {
+      const double value = data.value(static_cast<Eigen::Index>(i), c);
+      std::snprintf(text, sizeof text, " %.17g", value);
+      out += std::isfinite(value) ? text : " -";
+    }
+  }
+  return out + "\n";
 }
 
 MeasuredData read_measured_data(const std::string& file) { return read_measured_table(file); }

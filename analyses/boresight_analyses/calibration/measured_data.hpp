@@ -50,6 +50,10 @@ struct MeasuredData {
   Vec3 place_of(int channel) const;                      // channel: among channel_names()
 };
 
+// Times and readings with all their digits, by which results are known to be of these data: equal where every number is, whatever
+// file they come from.
+std::string exact_text_of(const MeasuredData& data);
+
 // Throws InputError naming the line.
 MeasuredData read_measured_data(const std::string& file);
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/calibration/model_error.hpp"
 
 namespace boresight {
@@ -17,7 +18,7 @@ std::string text(const char* format, double a) {
 }
 
 std::string size_of(double value, const std::string& unit) {
-  if (unit == "%") return text("%.2g %%", 100.0 * value);
+  if (unit == "%") return relative_text(value);
   if (unit == "s") return text("%.2g ms", 1e3 * value);
   return text("%.2g", value);
 }
@@ -68,7 +69,7 @@ std::vector<std::string> in_words(const CalibrationModelError& error, const Cali
     const ParameterEstimate& e = inference.parameters[static_cast<std::size_t>(p)];
     const double off = e.value - parameter.start;
     if (!parameter.is_error() && parameter.has_prior && std::abs(off) > 4.0 * e.standard_error)
-      words.push_back("The data ask for a " + e.name + " " + text("%.2g %%", 100.0 * std::abs(off) / parameter.start) +
+      words.push_back("The data ask for a " + e.name + " " + relative_text(std::abs(off) / parameter.start) +
                       (off > 0.0 ? " larger" : " smaller") + " than was told. It is allowed for.");
     if (!e.identifiable || !(e.standard_error > kMuchMore * e.data_error)) continue;
     const SuspectFound* most = nullptr;
@@ -78,7 +79,7 @@ std::vector<std::string> in_words(const CalibrationModelError& error, const Cali
       if (most == nullptr || s.adds[p] > most->adds[p]) most = &s;
     }
     const bool by_suspects = most != nullptr && named > 0.5 * e.coordinate_error * e.coordinate_error;
-    const auto share = [&](double error_of) { return text("%.2g %%", 100.0 * error_of / std::abs(e.value)); };
+    const auto share = [&](double error_of) { return relative_text(error_of / std::abs(e.value)); };
     words.push_back(e.name + " is known to " + share(e.standard_error) +
                     "; were the model without fault, the data would know it to " + share(e.data_error) +
                     (by_suspects ? ". What counts most: " + most->says : std::string()) + ".");

@@ -35,7 +35,10 @@ NextTest judge_candidate(const CalibrationProblem& problem, const Inference& inf
     test.refusal = "no parameter is left to learn of";
     return test;
   }
-  const MatX H = part(inference.information);
+  // Of the noise that the data show; what was known before is known as well as it was told.
+  const MatX prior = problem.prior_information().asDiagonal();
+  const auto known = [&](const MatX& weighed) { return MatX((weighed - prior) / inference.variance_factor + prior); };
+  const MatX H = part(known(inference.information));
   const MatX before = H.inverse();
   try {
     CalibrationProblem one = problem;
@@ -67,7 +70,7 @@ NextTest judge_candidate(const CalibrationProblem& problem, const Inference& inf
       one.evaluate(w, globals, VecX::Zero(one.state_size(w)), true, at);
       more += window_information(one, w, at).information;
     }
-    const MatX with = part(inference.information + more), after = with.inverse();
+    const MatX with = part(known(inference.information + more)), after = with.inverse();
     // Of many parameters the determinants themselves leave what a double holds.
     test.d_gain = log_determinant(with) - log_determinant(H);
     double sum_before = 0.0, sum_after = 0.0;

@@ -28,18 +28,17 @@ Known known_of(const CalibrationProblem& problem, const Inference& inference) {
   bool any = false;
   for (int p = 0; p < P; ++p) {
     known.u[p] = problem.parameters[p].coordinate(inference.parameters[p].value);
-    known.deviation[p] = inference.parameters[p].coordinate_error;
+    known.deviation[p] = inference.student * inference.parameters[p].coordinate_error;
     any = any || tells_combinations(problem, inference, p);
   }
   if (!any) return known;
   std::vector<int> free;
-  double variance_factor = inference.variance_factor;
+  double growth = 1.0;
   for (int g = 0; g < G; ++g) {
     if (!std::isfinite(inference.covariance(g, g))) continue;
     free.push_back(g);
     // Residuals that follow one another have made variances larger.
-    if (inference.lags > 0)
-      variance_factor = std::max(variance_factor, inference.covariance(g, g) / inference.white_covariance(g, g));
+    growth = std::max(growth, inference.growth[g]);
   }
   const VecX prior = problem.prior_information();
   MatX information = inference.information(free, free);
@@ -52,7 +51,7 @@ Known known_of(const CalibrationProblem& problem, const Inference& inference) {
     told[i] = 1.0;
     away[i] = known.u[g] - problem.parameters[g].coordinate(problem.parameters[g].start);
   }
-  information /= variance_factor;
+  information /= inference.variance_factor * growth;
   information.diagonal() += prior(free) + told;
   const Eigen::LDLT<MatX> solver(information);
   const MatX covariance = solver.solve(MatX::Identity(information.rows(), information.cols()));
@@ -61,7 +60,7 @@ Known known_of(const CalibrationProblem& problem, const Inference& inference) {
     if (free[a] >= P) continue;
     const auto i = static_cast<Eigen::Index>(a);
     known.u[free[a]] -= back[i];
-    known.deviation[free[a]] = std::sqrt(covariance(i, i));
+    known.deviation[free[a]] = inference.student * std::sqrt(covariance(i, i));
     for (std::size_t b = 0; b < free.size(); ++b)
       if (const auto j = static_cast<Eigen::Index>(b); free[b] < P)
         known.correlation(free[a], free[b]) = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
@@ -117,11 +116,11 @@ std::string posterior_toml(const CalibrationProblem& problem, const Inference& i
       out += "\n# Not identifiable (" + e.reason + "): all that is allowed for it.";
       distribution = all_allowed(parameter);
     } else if (parameter.transform == Transform::log) {
-      std::snprintf(text, sizeof text, "%.17g", std::exp(e.coordinate_error));
+      std::snprintf(text, sizeof text, "%.17g", std::exp(known.deviation[p]));
       distribution = "{ lognormal = { median = " + quantity(e.value, e.si_unit) + ", factor = " + text + " } }";
     } else {
       distribution = "{ normal = { mean = " + quantity(e.value, e.si_unit) +
-                     ", sd = " + quantity(e.standard_error, e.si_unit) + " }, truncate = [" +
+                     ", sd = " + quantity(inference.student * e.standard_error, e.si_unit) + " }, truncate = [" +
                      quantity(parameter.lower, e.si_unit) + ", " + quantity(parameter.upper, e.si_unit) + "] }";
     }
     out += "\n[[random]]\nparameter = \"" + e.name + "\"\ndistribution = " + distribution + "\n";

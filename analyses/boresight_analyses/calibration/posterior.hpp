@@ -8,7 +8,8 @@
 
 namespace boresight {
 
-// [[random]] and [[correlation]] tables. Gaussian in the coordinates of the fit; a parameter of a contact that the data do not know is
+// [[random]] and [[correlation]] tables. Gaussian in the coordinates of the fit, and as wide as the intervals where few readings make these
+// Student's; a parameter of a contact that the data do not know is
 // uniform over all that is allowed for it. Of standing errors at poses that the data know together only, each is what it may well be and
 // what they are together is what the data tell.
 std::string posterior_toml(const CalibrationProblem& problem, const Inference& inference);

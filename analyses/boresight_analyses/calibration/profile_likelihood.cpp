@@ -1,7 +1,6 @@
 #include "boresight_analyses/calibration/profile_likelihood.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <mutex>
 
@@ -28,13 +27,6 @@ struct Side {
   const FittedParameter& own() const { return problem.parameters[parameter]; }
   double clamped(double u) const { return std::clamp(u, own().lowest_coordinate(), own().highest_coordinate()); }
 
-  // Residuals that follow one another: the parameter's variance over what white ones would leave.
-  double widened() const {
-    double white = inference.variance_factor, grown = inference.covariance(parameter, parameter);
-    white *= inference.white_covariance(parameter, parameter);
-    return white > 0.0 ? std::max(1.0, grown / white) : 1.0;
-  }
-
   // The root of the rise at u, all others fitted anew from the line on which they follow it: there a parabola
   // has its least, and one iteration shows what is left to gain.
   template <typename Found>
@@ -55,7 +47,7 @@ struct Side {
     FitResult there = boresight::fit(problem, moved, fit.states, o);
     const double risen = there.cost - fit.cost;
     found(std::move(there));
-    return std::sqrt(std::max(0.0, risen) / (inference.variance_factor * widened()));
+    return std::sqrt(std::max(0.0, risen) / (inference.variance_factor * inference.growth[parameter]));
   }
 
   // Distance from the optimum at which the rise is what is wanted; NaN where a bound or the reach ends it
@@ -89,9 +81,9 @@ struct Side {
 }  // namespace
 
 std::vector<Profile> profile_likelihood(const CalibrationProblem& problem, const FitResult& fit,
-                                        const Inference& inference, const std::vector<bool>& fixed, double confidence,
-                                        int jobs, FitResult& lower) {
-  const double rise = boost::math::quantile(boost::math::chi_squared(1.0), confidence);
+                                        const Inference& inference, const std::vector<bool>& fixed, int jobs,
+                                        FitResult& lower) {
+  const double rise = inference.quantile * inference.quantile;
   std::vector<int> wanted;
   for (int p = 0; p < problem.parameter_count(); ++p)
     if (!fixed[p] && !problem.parameters[p].is_error() && !problem.parameters[p].has_prior) wanted.push_back(p);
@@ -123,9 +115,7 @@ std::vector<Profile> profile_likelihood(const CalibrationProblem& problem, const
   return profiles;
 }
 
-void take_intervals(const std::vector<Profile>& profiles, double confidence, const CalibrationProblem& problem,
-                    Inference& inference) {
-  const double reach = std::sqrt(boost::math::quantile(boost::math::chi_squared(1.0), confidence));
+void take_intervals(const std::vector<Profile>& profiles, const CalibrationProblem& problem, Inference& inference) {
   for (const Profile& profile : profiles) {
     ParameterEstimate& e = inference.parameters[profile.parameter];
     // A side that nothing tried excludes, up to a bound or as far as was looked, is open at least to there.
@@ -135,7 +125,7 @@ void take_intervals(const std::vector<Profile>& profiles, double confidence, con
     const FittedParameter& parameter = problem.parameters[profile.parameter];
     const double width = parameter.coordinate(high) - parameter.coordinate(low);
     if (!std::isfinite(width)) continue;
-    const double error = 0.5 * width / reach, grow = error / e.coordinate_error;
+    const double error = 0.5 * width / inference.quantile, grow = error / e.coordinate_error;
     inference.covariance.row(profile.parameter) *= grow;
     inference.covariance.col(profile.parameter) *= grow;
     e.standard_error *= grow;

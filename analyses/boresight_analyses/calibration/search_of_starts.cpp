@@ -143,13 +143,13 @@ void Calibrator::profile() {
   for (int round = 0; round < kMostSettlings; ++round) {
     tell("profile likelihood", "");
     FitResult lower = result_.fit;
-    result_.profiles = profile_likelihood(problem_, result_.fit, result_.inference, result_.fixed, options_.confidence,
-                                          options_.jobs, lower);
+    result_.profiles =
+        profile_likelihood(problem_, result_.fit, result_.inference, result_.fixed, options_.jobs, lower);
     if (!(lower.cost < result_.fit.cost - kLower * result_.inference.variance_factor)) break;
     note(fit(problem_, lower.globals, lower.states, fit_options("from a lower place", 15, options_.jobs)));
     result_.inference = infer_now();
   }
-  take_intervals(result_.profiles, options_.confidence, problem_, result_.inference);
+  take_intervals(result_.profiles, problem_, result_.inference);
 }
 
 }  // namespace boresight

@@ -4,6 +4,7 @@
 
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight_analyses/random/contact_path.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/sensitivity/predictable_slopes.hpp"
@@ -72,6 +73,7 @@ Outcome IndexFunction::at(std::span<const double> point, const std::atomic<bool>
   check(point);
   const Sample sample{.number = 0, .values = point};
   Outcome outcome;
+  const StopOfThread heard(stop);  // where a scene is built too
   samples_->evaluate({&sample, 1}, {&outcome, 1}, stop);
   return outcome;
 }
@@ -94,7 +96,7 @@ std::string IndexFunction::why_no_slopes() const {
   return "";
 }
 
-IndexSlopes IndexFunction::slopes_at(std::span<const double> point) const {
+IndexSlopes IndexFunction::slopes_at(std::span<const double> point, const std::atomic<bool>& stop) const {
   check(point);
   if (const std::string why = why_no_slopes(); !why.empty()) throw ComputationError(why);
   std::vector<std::size_t> varied, of_errors;
@@ -111,6 +113,7 @@ IndexSlopes IndexFunction::slopes_at(std::span<const double> point) const {
       values.push_back(point[i]);
     }
   }
+  const StopOfThread heard(stop);
   const auto parameters_with = [&](const std::vector<double>& v) {
     std::vector<double> all(point.begin(), point.end());
     for (std::size_t k = 0; k < varied.size(); ++k) all[varied[k]] = v[k];

@@ -43,8 +43,8 @@ class IndexFunction {
   std::vector<Outcome> at_all(const std::vector<std::vector<double>>& points, const ParallelEvaluation& options) const;
 
   // Exact slopes by all inputs (index_slopes.hpp), those of the perturbation rung's motion with its contacts located in time.
-  // Throws InputError as at() does, and ComputationError, which says why there are none.
-  IndexSlopes slopes_at(std::span<const double> point) const;
+  // Throws InputError as at() does, ComputationError, which says why there are none, and Interrupted once stop is set.
+  IndexSlopes slopes_at(std::span<const double> point, const std::atomic<bool>& stop = never()) const;
   // Why no point has slopes: another rung, inputs that have none; "": points may have.
   std::string why_no_slopes() const;
 

@@ -59,7 +59,7 @@ std::string MatchingPlan::sample_text(const Study& study) const {
 }
 
 MatchingPlan read_matching_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
-                                const std::function<void(const Setting&)>& accepts) {
+                                const AcceptsSetting& accepts, const AcceptsSettings& accepts_all) {
   Cursor table = root.table("match");
   table.only(match_keys());
   MatchingPlan plan;
@@ -94,13 +94,16 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
 
   std::set<std::string> taken;
   for (Cursor& entry : table.tables("variable")) {
-    plan.variables.push_back(read_design_variable(entry, mechanism, accepts));
+    plan.variables.push_back(read_design_variable(entry, mechanism));
     for (const std::string& path : plan.variables.back().paths)
       for (const std::string& single : single_paths(mechanism, path))
         if (!taken.insert(single).second)
           entry.fail_found("parameter", "\"" + single + "\" a second time", "each parameter once");
   }
   if (plan.variables.empty()) table.fail("variable", "at least one [[match.variable]] table: what may be chosen");
+  std::vector<BoxSide> sides;
+  for (const DesignVariable& v : plan.variables) sides.push_back(v.side());
+  check_corners(sides, accepts, accepts_all);
   const std::size_t n = plan.variables.size();
   if (plan.local == "bobyqa" && n < 2) table.fail("local", "cobyla: bobyqa wants two variables or more");
   if (plan.wants_gradients())

@@ -56,8 +56,8 @@ struct MatchingPlan {
   std::string sample_text(const Study& study) const;
 };
 
-// Throws InputError. `accepts`: see read_random_inputs.
+// Throws InputError. `accepts`: see read_random_inputs; accepts_all: see check_corners().
 MatchingPlan read_matching_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
-                                const std::function<void(const Setting&)>& accepts);
+                                const AcceptsSetting& accepts, const AcceptsSettings& accepts_all = {});
 
 }  // namespace boresight

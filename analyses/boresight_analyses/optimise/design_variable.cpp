@@ -1,7 +1,7 @@
 #include "boresight_analyses/optimise/design_variable.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/optimise/design_variable_keys.hpp"
@@ -15,8 +15,9 @@ double DesignVariable::from_search(double x) const {
   return std::min(std::max(value, from), to);  // the logarithm's rounding
 }
 
-DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& mechanism,
-                                    const std::function<void(const Setting&)>& accepts) {
+BoxSide DesignVariable::side() const { return {paths, si_unit, unit, from, to, from_at, to_at}; }
+
+DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& mechanism) {
   entry.only(design_variable_keys());
   DesignVariable v;
   v.paths = entry.one_or_texts("parameter");
@@ -28,7 +29,6 @@ DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& m
       entry.fail_found("parameter", "\"" + path + "\" in " + v.places.back().unit(),
                        "parameters that take the same values, in " + v.si_unit);
   }
-  const bool pure = v.si_unit == "1";
   const SiUnit unit = unit_called(v.si_unit);
   v.from = entry.value("from", unit);
   v.to = entry.value("to", unit);
@@ -41,17 +41,8 @@ DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& m
     for (const double start : v.starts)
       entry.require(start >= v.from && start <= v.to, "starts", "values between from and to");
   }
-  for (const char* key : {"from", "to"}) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g", key == std::string("from") ? v.from : v.to);
-    for (const std::string& path : v.paths) {
-      try {
-        accepts({path, pure ? std::string(text) : text + (" " + v.si_unit)});
-      } catch (const InputError& error) {
-        throw InputError(entry.origin(key), path, error.found, error.expected, error.nearest);
-      }
-    }
-  }
+  v.from_at = entry.origin("from");
+  v.to_at = entry.origin("to");
   entry.finish();
   return v;
 }

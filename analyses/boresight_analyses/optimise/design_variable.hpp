@@ -8,7 +8,6 @@
 //   scale = "linear"                 # or log: the search then sees the logarithm
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "boresight/io/cursor.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight/mechanism/parameter_path.hpp"
+#include "boresight_analyses/study/legal_corners.hpp"
 
 namespace boresight {
 
@@ -27,16 +27,17 @@ struct DesignVariable {
   bool log = false;
   std::vector<double> starts;
   std::vector<ParameterPath> places;
+  Origin from_at = {}, to_at = {};  // where they are written
 
   const std::string& name() const { return paths.front(); }
   // The search's own scale.
   double to_search(double value) const;
   double from_search(double x) const;
   double slope_of_search(double x) const;  // d value / d x
+  BoxSide side() const;
 };
 
-// Throws InputError. `accepts`: see read_random_inputs; asked of both bounds.
-DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& mechanism,
-                                    const std::function<void(const Setting&)>& accepts);
+// Throws InputError. Whether a mechanism takes its bounds is for check_corners() to say, of all variables together.
+DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& mechanism);
 
 }  // namespace boresight

@@ -80,6 +80,12 @@ double MeasureChoice::of(std::span<const Outcome> outcomes) const {
   return values.front();
 }
 
+ScatterStatistic MeasureChoice::statistic_of(std::size_t samples) const {
+  if (over == Over::quantile) return {probability};
+  if (over == Over::worst && samples > 1) return {1.0 - 1.0 / static_cast<double>(samples)};
+  return {};
+}
+
 ReportedInterval MeasureChoice::interval(std::span<const Outcome> outcomes, double confidence) const {
   std::vector<double> values;
   std::int64_t failed = 0;

@@ -9,6 +9,7 @@
 #include "boresight_analyses/statistics/interval.hpp"
 #include "boresight_analyses/study/index_choice.hpp"
 #include "boresight_analyses/study/sample_model.hpp"
+#include "boresight_analyses/study/scatter_comparison.hpp"
 
 namespace boresight {
 
@@ -41,6 +42,8 @@ struct MeasureChoice {
   double of(const Outcome& outcome) const;
   // NaN where a sample failed or the model does not say.
   double of(std::span<const Outcome> outcomes) const;
+  // What it asks of a design's samples; of the worst of them the quantile that so many can see.
+  ScatterStatistic statistic_of(std::size_t samples) const;
   // The same with its interval: Student's t of a mean, order statistics of a quantile; a nominal value or a
   // worst case has none (its ends are the value).
   ReportedInterval interval(std::span<const Outcome> outcomes, double confidence) const;

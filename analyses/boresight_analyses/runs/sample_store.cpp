@@ -103,10 +103,7 @@ SampleStore::SampleStore(const std::filesystem::path& file, const std::map<std::
   if (!db_) open();
   if (!has_table(db_->handle, file_, "sample"))
     make_store_tables(db_->handle, file_, {.facts = facts, .rungs = {}, .parameters = parameters_});
-  for (const auto& [key, value] : facts)
-    if (fact(key) != value)
-      throw StoreRefused(file_.string() + " holds the samples of another study (its " + key +
-                         " differs); give another --out, or remove it");
+  require(facts);
   read_layout();
   if (!damage_.empty()) note("damage", damage_);
   count();  // while it is small
@@ -186,14 +183,41 @@ std::string SampleStore::fact(const std::string& key) const {
   return get.step() ? get.text(0) : "";
 }
 
-void SampleStore::note(const std::string& key, const std::string& value) {
+std::string SampleStore::another_than(const std::map<std::string, std::string>& facts) const {
+  std::map<std::string, std::string> found;
+  for (const auto& [key, value] : facts) found[key] = fact(key);
+  return boresight::another_than(facts, found);
+}
+
+void SampleStore::require(const std::map<std::string, std::string>& facts) const {
+  if (const std::string another = another_than(facts); !another.empty())
+    throw StoreRefused(file_.string() + " holds " + another + "; give another --out, or remove it");
+}
+
+// What the tables say and the text that has the same once more change together.
+void SampleStore::change_header(const std::function<void()>& change) {
   commit();
-  Statement put(db_->handle, file_, "INSERT OR REPLACE INTO study VALUES (?, ?)");
-  put.bind(1, key);
-  put.bind(2, value);
-  put.step();
-  renew_header_text(db_->handle, file_);
-  put_cost();
+  begin();
+  try {
+    change();
+    renew_header_text(db_->handle, file_);
+  } catch (...) {
+    sqlite3_exec(db_->handle, "ROLLBACK", nullptr, nullptr, nullptr);
+    db_->in_transaction = false;
+    throw;
+  }
+  commit();
+}
+
+void SampleStore::note(const std::map<std::string, std::string>& notes) {
+  change_header([&] {
+    for (const auto& [key, value] : notes) {
+      Statement put(db_->handle, file_, "INSERT OR REPLACE INTO study VALUES (?, ?)");
+      put.bind(1, key);
+      put.bind(2, value);
+      put.step();
+    }
+  });
 }
 
 void SampleStore::use_rung(const std::string& name, double step) {
@@ -204,11 +228,12 @@ void SampleStore::use_rung(const std::string& name, double step) {
       rung_ = static_cast<int>(k) + 1;
       return;
     }
-  Statement put(db_->handle, file_, "INSERT INTO rung(name, step) VALUES (?, ?)");
-  put.bind(1, name);
-  put.bind(2, step);
-  put.step();
-  renew_header_text(db_->handle, file_);
+  change_header([&] {
+    Statement put(db_->handle, file_, "INSERT INTO rung(name, step) VALUES (?, ?)");
+    put.bind(1, name);
+    put.bind(2, step);
+    put.step();
+  });
   rung_ = static_cast<int>(known.size()) + 1;
 }
 
@@ -314,7 +339,10 @@ void SampleStore::merge(const std::filesystem::path& other) {
   commit();
   if (has_no_tables(other)) return;  // its rank was killed as it began
   const SampleStore opened(other);   // replays its log, and refuses what is no store
-  if (opened.fact("study") != fact("study") || opened.parameters() != parameters_)
+  std::map<std::string, std::string> own_facts{{"study", fact("study")}};
+  if (const std::string version = fact(kVersionFact); !version.empty()) own_facts[kVersionFact] = version;
+  opened.require(own_facts);
+  if (opened.parameters() != parameters_)
     throw StoreRefused(other.string() + " holds the samples of another study; remove it, or give another --out");
   const int own = rung_;
   read_whole_rows(opened.db_->handle, other, parameters_.size(), ~std::uint64_t{0} >> 1,

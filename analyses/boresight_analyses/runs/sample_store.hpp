@@ -46,8 +46,13 @@ class SampleStore {
   const std::filesystem::path& file() const { return file_; }
   const std::vector<std::string>& parameters() const { return parameters_; }
   std::string fact(const std::string& key) const;  // "" if there is none
-  // Kept beside the facts, and no part of what names the study.
-  void note(const std::string& key, const std::string& value);
+  // What it holds instead of samples with these facts, in a few words (stored_header.hpp); "": it holds those.
+  std::string another_than(const std::map<std::string, std::string>& facts) const;
+  // Throws StoreRefused where it holds anything else.
+  void require(const std::map<std::string, std::string>& facts) const;
+  // Kept beside the facts, and no part of what names the study. Several at once: all of them, or, after a kill, none.
+  void note(const std::map<std::string, std::string>& notes);
+  void note(const std::string& key, const std::string& value) { note({{key, value}}); }
 
   // The rung that samples from now on were computed with.
   void use_rung(const std::string& name, double step);
@@ -87,6 +92,7 @@ class SampleStore {
   void read_layout();
   void put_cost();
   void begin();  // a transaction, unless one is open
+  void change_header(const std::function<void()>& change);
   void add_history(std::uint64_t number, std::span<const double> doubles);
 
   std::filesystem::path file_;

@@ -24,17 +24,22 @@ std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanis
   return samples;
 }
 
-std::vector<Parameters> draws_of_scatter(const RandomInputs& inputs, const Mechanism& mechanism, std::size_t count) {
-  if (inputs.size() == 0) return {mechanism.parameters()};  // nothing scatters: one motion says all
+std::vector<std::vector<double>> drawn_values(const RandomInputs& inputs, std::size_t count) {
+  if (inputs.size() == 0) return {{}};  // nothing scatters: one motion says all
   constexpr std::uint64_t kSeedOfPilot = 0x70696c6f74;
   const SamplingDesign design({.kind = SamplingKind::random, .seed = kSeedOfPilot}, static_cast<int>(inputs.size()));
-  std::vector<Parameters> samples;
-  std::vector<double> values(inputs.size());
+  std::vector<std::vector<double>> draws(count, std::vector<double>(inputs.size()));
   for (std::size_t k = 0; k < count; ++k) {
-    design.point(k, values);
-    inputs.values(values);
-    samples.push_back(inputs.parameters_with(mechanism, values));
+    design.point(k, draws[k]);
+    inputs.values(draws[k]);
   }
+  return draws;
+}
+
+std::vector<Parameters> draws_of_scatter(const RandomInputs& inputs, const Mechanism& mechanism, std::size_t count) {
+  std::vector<Parameters> samples;
+  for (const std::vector<double>& values : drawn_values(inputs, count))
+    samples.push_back(inputs.parameters_with(mechanism, values));
   return samples;
 }
 

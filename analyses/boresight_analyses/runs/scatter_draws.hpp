@@ -13,7 +13,9 @@ bool scene_varies(const std::vector<std::string>& paths);
 bool scene_varies(const RandomInputs& inputs);
 // The scatter's middle and two corners: where the step that all samples share is looked for.
 std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanism& mechanism);
-// So many plain draws of the scatter, for a pilot: the same ones each time, and not those of the study.
+// So many plain draws of the scatter, for a pilot: the same ones each time, and not those of the study. Values of the inputs, or
+// the mechanism's own parameters with them.
+std::vector<std::vector<double>> drawn_values(const RandomInputs& inputs, std::size_t count);
 std::vector<Parameters> draws_of_scatter(const RandomInputs& inputs, const Mechanism& mechanism, std::size_t count);
 // Of which a pilot ranks as many as it has time for, and pairs a few.
 inline constexpr std::size_t kDrawsForPilot = 256;

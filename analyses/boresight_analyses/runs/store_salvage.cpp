@@ -31,10 +31,7 @@ Connection open_as_it_is(const fs::path& file) {
 
 bool is_of(const StoredHeader& header, const std::map<std::string, std::string>& facts,
            const std::vector<std::string>& parameters) {
-  if (header.parameters != parameters) return false;
-  for (const auto& [key, value] : facts)
-    if (const auto found = header.facts.find(key); found == header.facts.end() || found->second != value) return false;
-  return true;
+  return header.parameters == parameters && another_than(facts, header.facts).empty();
 }
 
 // Whose the samples are and how they were computed; nothing where that cannot be told. Throws StoreRefused where they are another
@@ -47,9 +44,12 @@ std::optional<StoredHeader> header_of_study(sqlite3* db, const fs::path& file,
     text = header_of_text(db, file);
   } catch (const StoreDamaged&) {
   }
-  if (text && !is_of(*text, facts, parameters))
-    throw StoreRefused(file.parent_path().string() +
-                       " holds the samples of another study; give another --out, or remove it");
+  if (text && !is_of(*text, facts, parameters)) {
+    const std::string another = another_than(facts, text->facts);
+    throw StoreRefused(file.parent_path().string() + " holds " +
+                       (another.empty() ? "the samples of another study" : another) +
+                       "; give another --out, or remove it");
+  }
   if (text) return text;
   try {
     if (StoredHeader header = header_of_tables(db, file); is_of(header, facts, parameters)) return header;

@@ -93,6 +93,21 @@ std::optional<StoredHeader> StoredHeader::from_text(const std::string& text) {
   return header;
 }
 
+std::string another_than(const std::map<std::string, std::string>& wanted,
+                         const std::map<std::string, std::string>& found) {
+  const auto said = [&](const std::string& key) {
+    const auto fact = found.find(key);
+    return fact == found.end() ? std::string() : fact->second;
+  };
+  const auto differs = [&](const std::string& key) { return wanted.contains(key) && said(key) != wanted.at(key); };
+  if (!differs("study") && differs(kVersionFact))
+    return "results of " + (said(kVersionFact).empty() ? "an earlier version" : "version " + said(kVersionFact)) +
+           ", and this is " + wanted.at(kVersionFact) + ": results of two versions are not mixed";
+  for (const auto& [key, value] : wanted)
+    if (said(key) != value) return "the samples of another study (its " + key + " differs)";
+  return "";
+}
+
 // In this order, so that every store of the same parameters begins with the same page.
 void make_store_tables(sqlite3* db, const std::filesystem::path& file, const StoredHeader& header) {
   std::string columns;

@@ -24,9 +24,16 @@ struct StoredHeader {
   friend bool operator==(const StoredHeader& a, const StoredHeader& b) { return a.text() == b.text(); }
 };
 
+// The fact that says which version of the program computed a store's samples.
+inline constexpr const char* kVersionFact = "version";
+// What a store with the facts `found` holds instead of samples of `wanted`, in a few words; "" where it holds those. One that does not
+// say its version is of another.
+std::string another_than(const std::map<std::string, std::string>& wanted,
+                         const std::map<std::string, std::string>& found);
+
 // Makes every table of an empty store. Throws StoreFailed.
 void make_store_tables(sqlite3* db, const std::filesystem::path& file, const StoredHeader& header);
-// Writes the text anew, from what the tables say.
+// Writes the text anew, from what the tables say: in the transaction that changed them, or a store between the two looks damaged.
 void renew_header_text(sqlite3* db, const std::filesystem::path& file);
 
 // Stores of versions before have no text: theirs is what the tables say. Both throw StoreDamaged, StoreFailed.

@@ -8,6 +8,7 @@
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/rungs/option_check.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
+#include "boresight_analyses/runs/stored_header.hpp"
 #include "boresight_analyses/runs/stored_pilot.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "boresight_analyses/study/study_error.hpp"
@@ -52,13 +53,18 @@ std::string StudyRun::hash(const std::string& decides) const {
   return hash.hexadecimal();
 }
 
+std::map<std::string, std::string> StudyRun::facts(const std::string& decides) const {
+  std::map<std::string, std::string> all{{"study", hash(decides)}};
+  if (!options_.version.empty()) all[kVersionFact] = options_.version;
+  return all;
+}
+
 std::unique_ptr<SampleStore> StudyRun::open_samples(const std::string& decides,
                                                     const std::vector<std::string>& parameters,
                                                     const std::string& name) const {
   if (options_.begun)
     options_.begun("begun and not yet ended: " + name + " holds what there is; the same command goes on");
-  auto store = std::make_unique<SampleStore>(options_.folder / name,
-                                             std::map<std::string, std::string>{{"study", hash(decides)}}, parameters);
+  auto store = std::make_unique<SampleStore>(options_.folder / name, facts(decides), parameters);
   if (options_.damaged && !store->damage().empty()) options_.damaged(store->damage());
   return store;
 }
@@ -73,12 +79,14 @@ std::unique_ptr<EvaluationStore> StudyRun::open_evaluations(const std::string& n
   const std::string decides = rung + " at " + exact(step) + " s, " + model;
   if (auto found = readable_store(options_.folder / name);
       found && found->fact("study") == hash() && found->fact("model") != decides) {
+    found->require(facts());
     found.reset();
     forget(name);
   }
-  auto store = std::make_unique<EvaluationStore>(
-      options_.folder / name, std::map<std::string, std::string>{{"study", hash()}, {"rung", rung}, {"model", decides}},
-      variables, rung, step);
+  std::map<std::string, std::string> own = facts();
+  own["rung"] = rung;
+  own["model"] = decides;
+  auto store = std::make_unique<EvaluationStore>(options_.folder / name, own, variables, rung, step);
   if (options_.damaged && !store->damage().empty()) options_.damaged(store->damage());
   return store;
 }
@@ -126,13 +134,28 @@ RungChoice StudyRun::choose_rung(RungQuestion question, double trials, const std
   return boresight::choose_rung(question, mechanism_, samples);
 }
 
-RungChoice StudyRun::rung_of_corners(const std::vector<Parameters>& corners, const std::string& store) const {
-  // What a pilot chooses hangs on times.
-  if (const auto found = readable_store(options_.folder / store); found && found->fact("study") == hash())
+RungChoice StudyRun::rung_of_designs(const DesignsTried& tried, const std::string& store) const {
+  // What a pilot chooses hangs on times. A store that cannot be gone on with is refused before there is a pilot.
+  if (const auto found = readable_store(options_.folder / store); found && found->fact("study") == hash()) {
+    found->require(facts());
     if (std::optional<RungChoice> begun_with = stored_choice(*found); begun_with && begun_with->pilot)
       return std::move(*begun_with);
-  return choose_rung({.wants_multibody = !options_.run.formulation.empty() || !options_.run.stabilisation.empty()},
-                     kPilotTrialsOfScatter, corners);
+  }
+  RungQuestion question{.wants_multibody = !options_.run.formulation.empty() || !options_.run.stabilisation.empty()};
+  if (!tried.statistic) {
+    std::vector<Parameters> motions;
+    for (const std::vector<Parameters>& samples : tried.samples)
+      motions.insert(motions.end(), samples.begin(), samples.end());
+    return choose_rung(question, kPilotTrialsOfScatter, motions);
+  }
+  question.statistic = tried.statistic;
+  question.scene_varies = tried.scene_varies;
+  question.runs = tried.runs / tried.samples.size();
+  question.jobs = options_.jobs;
+  std::vector<RungChoice> choices;
+  for (const std::vector<Parameters>& samples : tried.samples)
+    choices.push_back(choose_rung(question, kPilotTrialsOfScatter, samples));
+  return most_demanding(choices);
 }
 
 RungChoice StudyRun::choose_rung_of_scatter(const ScatterAsked& asked) const {

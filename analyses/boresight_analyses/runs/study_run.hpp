@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,7 @@ class Stage {
 
 struct StudyRunOptions {
   std::string identity = {};            // tells this study from every other one: its stores are known by it
+  std::string version = {};             // of the program: stores of another are refused; "": it does not matter
   std::filesystem::path folder = {};    // of its results; it must exist before a store is opened
   std::string rung = "auto";            // asked for
   std::optional<double> accuracy = {};  // relative, of the index
@@ -58,6 +60,14 @@ struct ScatterAsked {
   std::uint64_t runs = 0;    // that the study will make
   bool lanes = false;        // whether it can take lanes
   bool integrators = false;  // whether it can take an integrator and its tolerance
+};
+
+// Designs that stand for all designs of a study, as it judges them.
+struct DesignsTried {
+  std::vector<std::vector<Parameters>> samples;    // of each design
+  std::optional<ScatterStatistic> statistic = {};  // of its samples; nothing: each one is a motion of its own
+  bool scene_varies = true;                        // over the samples of one design
+  std::uint64_t runs = 0;                          // that the study will make in all; 0: not known
 };
 
 // What the steps do to a study's answer, relative.
@@ -85,6 +95,8 @@ class StudyRun {
 
   // By which its stores are known. decides: what decides a run beside the identity; "": nothing.
   std::string hash(const std::string& decides = "") const;
+  // What a store of it says of itself: that hash, and the version.
+  std::map<std::string, std::string> facts(const std::string& decides = "") const;
   // Open a store in the folder; what is in it already stays. Throw StoreRefused, StoreFailed.
   std::unique_ptr<SampleStore> open_samples(const std::string& decides, const std::vector<std::string>& parameters,
                                             const std::string& name = "samples.db") const;
@@ -101,9 +113,8 @@ class StudyRun {
   // choose_rung() with the pilot's progress shown and an interruption heard (PilotInterrupted). trials: about as many as the
   // pilot makes. question: what only the caller knows; the rung asked for, accuracy, index and options are filled in.
   RungChoice choose_rung(RungQuestion question, double trials, const std::vector<Parameters>& samples) const;
-  // For a study of designs: at these corners of them, each a motion of its own. store: the name of its evaluations, where
-  // note_choice() has kept what a pilot chose.
-  RungChoice rung_of_corners(const std::vector<Parameters>& corners, const std::string& store) const;
+  // For a study of designs. store: the name of its evaluations, where note_choice() has kept what a pilot chose.
+  RungChoice rung_of_designs(const DesignsTried& tried, const std::string& store) const;
   // For a study of a scatter. With a store, the one it was begun with, or the one that is chosen and noted now.
   RungChoice choose_rung_of_scatter(const ScatterAsked& asked) const;
   RungChoice rung_of_scatter(const ScatterAsked& asked, SampleStore& store) const;

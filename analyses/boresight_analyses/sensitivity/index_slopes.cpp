@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight/slopes/sensitive_motion.hpp"
 #include "boresight/slopes/start_slopes.hpp"
 
@@ -65,6 +66,7 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
   request.by_parameters = !values.empty();
   for (int k = 0; k <= options.points; ++k)
     request.times.push_back(index.start + (request.end - index.start) * k / options.points);
+  request.reached = [end = request.end](double t) { work_reached("following the motion's derivatives", t / end); };
   const ContactNumbers numbers = contact_numbers(mechanism, parameters_at, values);
   request.implicit = request.by_parameters && implicit_steps_pay(mechanism, parameters, tables, numbers, request);
   const SensitiveMotion motion = follow_with_sensitivity(mechanism, parameters, tables, numbers, request);

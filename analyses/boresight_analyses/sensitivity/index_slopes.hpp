@@ -44,7 +44,7 @@ struct IndexSlopes {
 };
 
 // parameters_at: the mechanism's parameters at values > 0 of those varied, which may change numbers of the
-// contacts only (every "clearance." path). Throws ComputationError where the motion cannot be followed.
+// contacts only (every "clearance." path). Throws ComputationError where the motion cannot be followed, and Interrupted.
 IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepared,
                          const std::function<Parameters(const std::vector<double>&)>& parameters_at,
                          const std::vector<double>& values, const IndexChoice& index, const SlopeOptions& options);

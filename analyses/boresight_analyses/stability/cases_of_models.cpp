@@ -4,6 +4,7 @@
 
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/stability/failure_case.hpp"
 #include "boresight_analyses/stability/text.hpp"
 
@@ -29,7 +30,7 @@ FailureCase case_of_chaos(const Scene& scene, const std::vector<Separation>& sep
     else
       c.measured += text("a difference of %.0e never parts them by a tenth of the clearance; ", s.start);
   }
-  c.measured += text("the RMS error over the run differs by at most %.2g %%", 100.0 * worst);
+  c.measured += "the RMS error over the run differs by at most " + relative_text(worst);
   c.standing = !parts        ? FailureCase::Standing::not_here
                : worst < 0.1 ? FailureCase::Standing::behaves
                              : FailureCase::Standing::differs;
@@ -56,14 +57,15 @@ FailureCase case_of_large_clearance(const Scene& scene) {
     }
     try {
       const RunResult result = perturbation->run(parameters, scene.followed->options(0.0));
-      c.measured += text("%s%g times the clearance: perturbation's own estimate of its model error %.2g %%",
-                         before > 0.0 ? "; " : "", factor, 100.0 * result.error.largest_model());
+      c.measured += text("%s%g times the clearance: perturbation's own estimate of its model error ",
+                         before > 0.0 ? "; " : "", factor) +
+                    relative_text(result.error.largest_model());
       grows = grows && result.error.largest_model() > before;
       before = result.error.largest_model();
       if (factor == 1.0) continue;
       const RunResult exact = make_rung("multibody", scene.mechanism)->run(parameters, scene.followed->options(0.0));
       const double off = std::abs(result.index.position_error.rms / exact.index.position_error.rms - 1.0);
-      c.measured += text(", its RMS error off by %.2g %% from multibody's", 100.0 * off);
+      c.measured += ", its RMS error off by " + relative_text(off) + " from multibody's";
     } catch (const ComputationError& stop) {
       c.measured += text("%s%g times the clearance: refused: ", before > 0.0 ? "; " : "", factor) + stop.what();
     }

@@ -4,6 +4,7 @@
 
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight/stepping/unstable_step.hpp"
 #include "boresight_analyses/stability/failure_case.hpp"
 #include "boresight_analyses/stability/text.hpp"
@@ -104,8 +105,9 @@ FailureCase case_of_baumgarte_gains(const BaumgarteMap& map) {
     c.standing = FailureCase::Standing::differs;
     return c;
   }
-  c.measured = text("%zu limits along rays of alpha/beta, from the drift of %s, differ from theory by at most %.2g %%",
-                    map.limits.size(), map.joint.c_str(), 100.0 * worst);
+  c.measured = text("%zu limits along rays of alpha/beta, from the drift of %s, differ from theory by at most ",
+                    map.limits.size(), map.joint.c_str()) +
+               relative_text(worst);
   c.standing = worst <= 0.02 ? FailureCase::Standing::behaves : FailureCase::Standing::differs;
   return c;
 }

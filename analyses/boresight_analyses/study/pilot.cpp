@@ -6,6 +6,7 @@
 
 #include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/study/geometric_sample_model.hpp"
 #include "boresight_analyses/study/measurement.hpp"
 #include "boresight_analyses/study/pilot_choice.hpp"
@@ -69,31 +70,31 @@ void conclude(PilotResult& result) {
   if (result.chosen < 0) throw ComputationError("no rung can follow this motion: " + result.trials.back().refusal);
 
   const PilotTrial& best = result.trials[result.chosen];
-  const double a = 100.0 * result.accuracy, error = 100.0 * best.error, reference = 100.0 * result.reference_error;
+  const double a = 100.0 * result.accuracy;
+  const std::string error = relative_text(best.error), reference = relative_text(result.reference_error);
   char pairs[60] = "";
   if (result.pairs > 0) std::snprintf(pairs, sizeof pairs, " over %zu paired samples", result.pairs);
-  char scatter[120] = "";
-  if (result.pairs == 0 && result.scatter > 0.1 * result.accuracy)
-    std::snprintf(scatter, sizeof scatter, "; single motions scatter by %.2g %%, standard deviation",
-                  100.0 * result.scatter);
+  const std::string scatter =
+      result.pairs == 0 && result.scatter > 0.1 * result.accuracy
+          ? "; single motions scatter by " + relative_text(result.scatter) + ", standard deviation"
+          : "";
   char text[600];
   if (result.met)
     std::snprintf(text, sizeof text,
-                  "the cheapest that comes within %.3g %% of multibody in the %s: off by %.2g %% at most%s (reference "
-                  "good to %.2g %%)",
-                  a, result.index.c_str(), error, pairs, reference);
+                  "the cheapest that comes within %.3g %% of multibody in the %s: off by %s at most%s (reference "
+                  "good to %s)",
+                  a, result.index.c_str(), error.c_str(), pairs, reference.c_str());
   else if (!good_reference)
-    std::snprintf(
-        text, sizeof text,
-        "an accuracy of %.3g %% cannot be shown: multibody itself is good to %.2g %% only in the %s%s%s; this %s", a,
-        reference, result.index.c_str(), pairs, scatter,
-        told_apart ? "one comes nearest" : "is the cheapest that cannot be told from it");
+    std::snprintf(text, sizeof text,
+                  "an accuracy of %.3g %% cannot be shown: multibody itself is good to %s only in the %s%s%s; this %s",
+                  a, reference.c_str(), result.index.c_str(), pairs, scatter.c_str(),
+                  told_apart ? "one comes nearest" : "is the cheapest that cannot be told from it");
   else
     std::snprintf(
         text, sizeof text,
-        "none is shown to come within %.3g %% of multibody in the %s; this one comes nearest: off by %.2g %% at most%s "
-        "(reference good to %.2g %%)",
-        a, result.index.c_str(), error, pairs, reference);
+        "none is shown to come within %.3g %% of multibody in the %s; this one comes nearest: off by %s at most%s "
+        "(reference good to %s)",
+        a, result.index.c_str(), error.c_str(), pairs, reference.c_str());
   result.why = text;
 }
 

@@ -2,22 +2,16 @@
 // nothing scatters by itself, so that one evaluation of a sample says all.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/study/pilot_choice.hpp"
 #include "boresight_analyses/study/setup_samples.hpp"
 
 namespace boresight {
 namespace {
-
-std::string percent(double share, int digits) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g %%", digits, 100.0 * share);
-  return text;
-}
 
 std::vector<std::size_t> first_of(std::size_t count) {
   std::vector<std::size_t> all(count);
@@ -163,11 +157,11 @@ class PilotOfGeometry {
 
   std::string why(bool taken) const {
     const std::string pairs = result_.pairs > 0 ? " over " + std::to_string(result_.pairs) + " paired samples" : "";
-    const std::string asked = percent(result_.accuracy, 3);
+    const std::string asked = relative_text(result_.accuracy, 3);
     if (taken)
       return "pure geometry, as no joint has play: errors added up linearly come within " + asked +
              " of multibody, which closes the joints exactly, in the " + result_.index + ": off by " +
-             percent(linear_trial_.error, 2) + " at most" + pairs;
+             relative_text(linear_trial_.error) + " at most" + pairs;
     const std::string exactly = "the one that closes the joints exactly; no joint has play, but ";
     if (!linear_trial_.refusal.empty()) return exactly + "errors cannot be added up here: " + linear_trial_.refusal;
     if (not_closed_ > 0)
@@ -175,9 +169,9 @@ class PilotOfGeometry {
              std::to_string(not_closed_ + result_.pairs) + " samples";
     if (std::abs(linear_trial_.difference) > result_.accuracy)
       return exactly + "errors this large do not just add up: linear in them, the " + result_.index +
-             " would be off by " + percent(std::abs(linear_trial_.difference), 2) + pairs + ", and " + asked +
+             " would be off by " + relative_text(std::abs(linear_trial_.difference)) + pairs + ", and " + asked +
              " was asked for";
-    return exactly + "that errors just add up is shown within " + percent(linear_trial_.error, 2) + " only in the " +
+    return exactly + "that errors just add up is shown within " + relative_text(linear_trial_.error) + " only in the " +
            result_.index + pairs + ", and " + asked + " was asked for";
   }
 

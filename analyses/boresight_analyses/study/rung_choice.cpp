@@ -1,6 +1,7 @@
 #include "boresight_analyses/study/rung_choice.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/built_mechanism.hpp"
@@ -25,6 +26,25 @@ void check_rung_name(const std::string& asked) {
   if (asked != "auto" && std::find(names.begin(), names.end(), asked) == names.end())
     throw InputError({"command line", 0}, "--rung", "\"" + asked + "\"", "auto, " + listed(names),
                      nearest_name(asked, names));
+}
+
+RungChoice most_demanding(const std::vector<RungChoice>& choices) {
+  const std::vector<std::string> names = rung_names();  // cheapest first
+  const auto demand = [&](const RungChoice& c) {
+    // Where nothing deviates nothing was chosen.
+    const auto rank = std::find(names.begin(), names.end(), c.name) - names.begin();
+    return std::tuple(c.pilot.has_value(), rank, -c.step, -c.tolerance);
+  };
+  const auto most = std::max_element(choices.begin(), choices.end(),
+                                     [&](const RungChoice& a, const RungChoice& b) { return demand(a) < demand(b); });
+  RungChoice chosen = *most;
+  const auto piloted = std::count_if(choices.begin(), choices.end(), [](const RungChoice& c) { return c.pilot; });
+  if (choices.size() > 1 && chosen.pilot)
+    chosen.why += "; this is the design that asks for most, of " + std::to_string(piloted) + " tried";
+  const bool all_met =
+      std::all_of(choices.begin(), choices.end(), [](const RungChoice& c) { return !c.pilot || c.pilot->met; });
+  if (chosen.pilot && chosen.pilot->met && !all_met) chosen.why += ", and for another one the accuracy is not shown";
+  return chosen;
 }
 
 void apply(const RungChoice& choice, RunOptions& options) {

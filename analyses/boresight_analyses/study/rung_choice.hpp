@@ -36,6 +36,9 @@ struct RungQuestion {
   std::function<bool(int)> progress = {};  // of the pilot
 };
 
+// Of what pilots chose for several designs the one that leaves out least, with the smallest step or tolerance: it serves them all.
+RungChoice most_demanding(const std::vector<RungChoice>& choices);
+
 // Puts what the pilot found into the options of the runs to come.
 void apply(const RungChoice& choice, RunOptions& options);
 

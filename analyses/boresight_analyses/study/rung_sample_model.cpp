@@ -103,7 +103,7 @@ void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outco
   try {
     const RunResult result = run(rung, parameters_of_(sample.values), options, outcome.message);
     outcome.cpu_seconds = result.cost.cpu_seconds;
-    outcome.evaluations = static_cast<double>(result.cost.evaluations);
+    outcome.evaluations = static_cast<double>(result.cost.evaluations - result.cost.shared_evaluations);
     if (result.interrupted) return;
     outcome.value = index_.of(result.index);
     outcome.motion = measures_of(result);

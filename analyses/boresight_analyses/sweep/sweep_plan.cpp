@@ -29,24 +29,13 @@ std::vector<double> spaced(Cursor& axis, double from, double to) {
   return values;
 }
 
-void check_values(Cursor& axis, const SweepAxis& result, const std::function<void(const Setting&)>& accepts) {
+BoxSide side_of(const Cursor& axis, const SweepAxis& result) {
   const auto [least, largest] = std::minmax_element(result.values.begin(), result.values.end());
-  for (const double value : {*least, *largest}) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    for (const std::string& path : result.parameters) {
-      try {
-        accepts({path, result.si_unit == "1" ? std::string(text) : text + (" " + result.si_unit)});
-      } catch (const InputError& error) {
-        throw InputError(axis.origin(axis.has("values") ? "values" : "from"), path, error.found, error.expected,
-                         error.nearest);
-      }
-    }
-  }
+  const Origin origin = axis.origin(axis.has("values") ? "values" : "from");
+  return {result.parameters, result.si_unit, result.unit, *least, *largest, origin, origin};
 }
 
-SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism,
-                    const std::function<void(const Setting&)>& accepts) {
+SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism) {
   axis.only(sweep_axis_keys());
   SweepAxis result;
   result.parameters = axis.one_or_texts("parameter");
@@ -76,7 +65,6 @@ SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism,
   // The same value twice would be the same point twice.
   if (std::set<double>(result.values.begin(), result.values.end()).size() != result.values.size())
     axis.fail(axis.has("values") ? "values" : "to", "values that differ from one another");
-  check_values(axis, result, accepts);
   axis.finish();
   return result;
 }
@@ -105,8 +93,8 @@ Parameters SweepPlan::parameters_at(const Mechanism& mechanism, std::size_t k) c
   return parameters;
 }
 
-SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism,
-                          const std::function<void(const Setting&)>& accepts) {
+SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism, const AcceptsSetting& accepts,
+                          const AcceptsSettings& accepts_all) {
   Cursor sweep = root.table("sweep");
   sweep.only(sweep_keys());
   SweepPlan plan;
@@ -115,9 +103,11 @@ SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism,
     sweep.fail("findings",
                "a mechanism of three legs of R, R, C, P and R, as that paper's; leave findings out for others");
   std::set<std::string> swept;
+  std::vector<BoxSide> sides;
   std::size_t points = 1;
   for (Cursor& axis : sweep.tables("axis")) {
-    plan.axes.push_back(read_axis(axis, mechanism, accepts));
+    plan.axes.push_back(read_axis(axis, mechanism));
+    sides.push_back(side_of(axis, plan.axes.back()));
     for (const std::string& path : plan.axes.back().parameters)
       for (const std::string& single : single_paths(mechanism, path))
         if (!swept.insert(single).second)
@@ -128,6 +118,7 @@ SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism,
                       "at most " + std::to_string(kMostSweepPoints));
   }
   if (plan.axes.empty()) sweep.fail("axis", "at least one [[sweep.axis]]");
+  check_corners(sides, accepts, accepts_all);
   sweep.finish();
   return plan;
 }

@@ -14,12 +14,12 @@
 // Several axes make a full grid; the last axis runs fastest.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "boresight/io/cursor.hpp"
 #include "boresight/mechanism/mechanism.hpp"
+#include "boresight_analyses/study/legal_corners.hpp"
 
 namespace boresight {
 
@@ -45,10 +45,8 @@ struct SweepPlan {
 
 inline constexpr std::size_t kMostSweepPoints = 100'000;
 
-// Reads the [sweep] table. Throws InputError. `accepts` is asked of the smallest and the largest value of
-// every axis, as a setting of the mechanism, and throws what the mechanism's own reader throws, so that a
-// sweep takes no value a file may not hold.
-SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism,
-                          const std::function<void(const Setting&)>& accepts);
+// Reads the [sweep] table. Throws InputError, for points too that no mechanism's file may hold: see check_corners().
+SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism, const AcceptsSetting& accepts,
+                          const AcceptsSettings& accepts_all = {});
 
 }  // namespace boresight

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/pointing/relative_text.hpp"
 #include "report_parts/report_parts.hpp"
 #include "terminal/readable.hpp"
 
@@ -163,8 +164,11 @@ std::string standing_of(const AllocateStudy& s, const Allocation& a) {
   if (&a == &s.result.chosen) return a.feasible ? "chosen" : "the tightest there is";
   if (!a.feasible) return "finds nothing that keeps the limit";
   if (!a.meets) return fmt::format("unsafe: only {} within the limit", readable_share(a.share_within));
-  if (s.result.chosen.feasible && a.price > s.result.chosen.price * (1.0 + 1e-6))
-    return fmt::format("wasteful: {:.3g} % dearer", 100.0 * (a.price / s.result.chosen.price - 1.0));
+  if (s.result.chosen.feasible && a.price > s.result.chosen.price * (1.0 + 1e-6)) {
+    const double times = a.price / s.result.chosen.price;
+    return "wasteful: " +
+           (times < kSaidAsMultiple ? relative_text(times - 1.0, 3) + " dearer" : relative_text(times, 3, "the price"));
+  }
   if (s.result.chosen.feasible && a.price < s.result.chosen.price * (1.0 - 1e-6))
     return fmt::format(
         "cheaper, and meets it by the samples of the search, but too closely for {} fresh samples to show it",
@@ -237,11 +241,11 @@ report::Document allocate_report(const AllocateStudy& s) {
                                .items = {report::Text{fmt::format(
                                    "The search sums the error linearly over the joints, as journals at rest under the "
                                    "ideal reactions displace the "
-                                   "platform{}; against its own rung that is off by {:.2g} %. Impacts come in by the "
+                                   "platform{}; against its own rung that is off by {}. Impacts come in by the "
                                    "factor {:.4g}, measured on the {} rung "
                                    "and taken as one for all samples; the confirmation does without either.\n\n{}",
                                    has_errors(s.plan) ? ", and over the parts' own errors" : "",
-                                   100.0 * s.result.misfit, s.result.factor, s.rung.name, s.leaves_out)}}});
+                                   relative_text(s.result.misfit), s.result.factor, s.rung.name, s.leaves_out)}}});
   return document;
 }
 

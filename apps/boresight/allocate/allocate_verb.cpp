@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "allocate/allocate_report.hpp"
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/allocation/allocation_keys.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/study/design_model.hpp"
@@ -270,8 +271,8 @@ class AllocateVerb : public Verb {
       warnings.push_back("round " + std::to_string(k + 1) +
                          " of the confirmation disagreed with the search: " + r.confirmations[k].sentence);
     if (r.misfit > kMostMisfit)
-      warnings.push_back(fmt::format(
-          "the error is not linear in the gaps: off by {:.2g} % against the quasistatic rung", 100.0 * r.misfit));
+      warnings.push_back(fmt::format("the error is not linear in the gaps: off by {} against the quasistatic rung",
+                                     relative_text(r.misfit)));
     for (const Allocation* a : {&r.worst_case, &r.root_sum_square})
       if (r.feasible && a->feasible && !a->meets)
         warnings.push_back("the " + a->judged_by + " allocation is " + standing_of(s, *a));

@@ -231,8 +231,8 @@ report::Document budget_report(const BudgetStudy& s) {
            fmt::format(
                "\n\nBy its own estimate the rung is off by {} for what it leaves out, mean over the runs. By its "
                "steps: {} ({}). The intervals above are of sampling alone.",
-               readable_share(s.model_error),
-               std::isfinite(s.steps.relative) ? readable_share(s.steps.relative) : "not measured", s.steps.why)}}});
+               readable_error(s.model_error),
+               std::isfinite(s.steps.relative) ? readable_error(s.steps.relative) : "not measured", s.steps.why)}}});
   document.sections.push_back({.id = "sources", .title = "Where each number comes from", .items = {source_table(s)}});
   if (s.rung.pilot) document.sections.push_back(pilot_section(*s.rung.pilot));
   return document;

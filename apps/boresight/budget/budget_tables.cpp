@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "boresight/pointing/relative_text.hpp"
 #include "budget/budget_parts.hpp"
 #include "report_parts/report_parts.hpp"
 
@@ -71,7 +72,9 @@ std::string interval_text(const BudgetStudy& s, const ReportedInterval& i) {
 
 std::string standing_text(RuleStanding standing, double by_rule, double simulated) {
   if (simulated <= 0.0) return "fair";
-  return fmt::format("{}, {:+.0f} %", to_string(standing), 100.0 * (by_rule / simulated - 1.0));
+  const double off = by_rule / simulated - 1.0;
+  return off < kSaidAsMultiple ? fmt::format("{}, {:+.0f} %", to_string(standing), 100.0 * off)
+                               : fmt::format("{}, {} above", to_string(standing), relative_text(off, 2, "it"));
 }
 
 const BudgetLevel& headline_level(const Budget& b) {

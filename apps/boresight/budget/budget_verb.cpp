@@ -240,12 +240,11 @@ class BudgetVerb : public Verb {
  private:
   static void note_origin(SampleStore& store, const Study& study, const Mechanism& mechanism, const BudgetPlan& plan) {
     if (!store.fact("mechanism").empty()) return;
-    store.note("mechanism", mechanism.name());
-    store.note("mechanism_hash", mechanism.description().content_hash);
-    store.note("index", study.index.quantity + ".max");
-    store.note("unit", study.index.si_unit());
-    store.note("seed", std::to_string(plan.seed));
-    store.note("version", BORESIGHT_VERSION);
+    store.note({{"mechanism", mechanism.name()},
+                {"mechanism_hash", mechanism.description().content_hash},
+                {"index", study.index.quantity + ".max"},
+                {"unit", study.index.si_unit()},
+                {"seed", std::to_string(plan.seed)}});
   }
 
   // Returns false if it was interrupted.

@@ -101,7 +101,7 @@ class CalibrateVerb : public Verb {
     options.laws = plan.laws;
     for (const PlannedRun& c : plan.candidates) options.candidates.push_back({c.name, mechanism_with(c.settings)});
     ContentHash data;
-    for (const CalibrationRun& run : problem.runs) data.add(csv_of(run.data));
+    for (const CalibrationRun& run : problem.runs) data.add(exact_text_of(run.data));
     const VerbStudy own(command, mechanism, study.index, study.accuracy, {},
                         identity_of(command, mechanism->description().content_hash, study.content_hash,
                                     {{"data", data.hexadecimal()}}));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report_parts/report_parts.hpp"
+#include "results/scatter_parts.hpp"
 #include "terminal/readable.hpp"
 
 namespace boresight::app {
@@ -92,7 +93,7 @@ report::Table front_table(const ChartResult& result) {
   for (std::size_t k : result.front) {
     const ChartPoint& p = result.points[k];
     table.rows.push_back(
-        {p.family, fineness(p.setup), 100.0 * p.error, 1e3 * p.measured.cpu_seconds,
+        {p.family, fineness(p.setup), error_cell(p.error), 1e3 * p.measured.cpu_seconds,
          papers ? nlohmann::json(fmt::format("{:.3g} times", papers->measured.cpu_seconds / p.measured.cpu_seconds))
                 : nlohmann::json()});
   }
@@ -117,9 +118,10 @@ report::Table all_table(const ChartResult& result) {
           {name, fineness(p.setup), nullptr, nullptr, nullptr, nullptr, nullptr, "failed: " + p.measured.refusal});
       continue;
     }
-    const double scale = std::abs(p.measured.value) > 0.0 ? 100.0 / std::abs(p.measured.value) : 0.0;
-    table.rows.push_back({name, fineness(p.setup), p.measured.value, 100.0 * p.error, scale * p.measured.half_spread,
-                          100.0 * p.measured.estimate, 1e3 * p.measured.cpu_seconds, "done"});
+    const double scale = std::abs(p.measured.value) > 0.0 ? 1.0 / std::abs(p.measured.value) : 0.0;
+    table.rows.push_back({name, fineness(p.setup), p.measured.value, error_cell(p.error),
+                          error_cell(scale * p.measured.half_spread), error_cell(p.measured.estimate),
+                          1e3 * p.measured.cpu_seconds, "done"});
   }
   return table;
 }
@@ -130,7 +132,7 @@ report::Section reference_section(const Reference& reference, const std::string&
       .title = "The reference",
       .intro = fmt::format("Multibody in joint coordinates, RK4, refined until its uncertainty was known: {}. Where "
                            "impacts scatter the index, finer steps bring it no lower.",
-                           readable_share(reference.uncertainty))};
+                           readable_error(reference.uncertainty))};
   report::Table table{.title = "Refinements",
                       .caption = "Medians over neighbouring steps.",
                       .columns = {{"Step", "µs"}, {"Index", unit}, {"Half spread", unit}}};
@@ -217,17 +219,17 @@ report::Document chart_report(const Command& command, const Mechanism& mechanism
         report::Verdict{report::Standing::bad,
                         result.reference.uncertainty > wanted
                             ? fmt::format("The reference is known to {} only: what comes within {} cannot be told.",
-                                          readable_share(result.reference.uncertainty), readable_share(wanted))
+                                          readable_error(result.reference.uncertainty), readable_share(wanted))
                             : fmt::format("No way comes within {}.", readable_share(wanted))};
   for (const std::string& name : result.flight.left_out)
     document.warnings.push_back("no time was left for the flight before the first impact of " + name);
   document.facts.push_back({.label = "Reference",
                             .value = readable(result.reference.value, result.unit),
-                            .note = "known to " + readable_share(result.reference.uncertainty)});
+                            .note = "known to " + readable_error(result.reference.uncertainty)});
   if (papers)
     document.facts.push_back({.label = "The setting of Sun, Song and Wang",
                               .value = readable(papers->measured.cpu_seconds, "s"),
-                              .note = "off by " + readable_share(papers->error)});
+                              .note = "off by " + readable_error(papers->error)});
   const auto failed = std::count_if(result.points.begin(), result.points.end(),
                                     [](const ChartPoint& p) { return !p.measured.refusal.empty(); });
   document.facts.push_back(

@@ -109,22 +109,22 @@ void print(const Mechanism& mechanism, const ChartResult& result, std::optional<
   tell("{}: accuracy against speed, {}{}\n", mechanism.name(), result.index,
        result.interrupted ? " (interrupted; the same command goes on)" : "");
   tell("  reference {}, known to {}\n", readable(result.reference.value, result.unit),
-       readable_share(result.reference.uncertainty));
+       readable_error(result.reference.uncertainty));
   tell("  Pareto front:\n");
   for (std::size_t k : result.front) {
     const ChartPoint& p = result.points[k];
-    tell("    {:>10}  off by {:<10} {}, {}\n", readable(p.measured.cpu_seconds, "s"), readable_share(p.error), p.family,
+    tell("    {:>10}  off by {:<10} {}, {}\n", readable(p.measured.cpu_seconds, "s"), readable_error(p.error), p.family,
          fineness(p.setup));
   }
   if (const ChartPoint* papers = result.papers())
     tell("  the setting of Sun, Song and Wang: {}, off by {}\n", readable(papers->measured.cpu_seconds, "s"),
-         readable_share(papers->error));
+         readable_error(papers->error));
   if (accuracy) {
     const ChartPoint* best = result.cheapest_within(*accuracy);
     tell("  cheapest within {}: {}\n", readable_share(*accuracy),
          best ? best->family + ", " + fineness(best->setup)
          : result.reference.uncertainty > *accuracy
-             ? "cannot be told, as the reference is known to " + readable_share(result.reference.uncertainty) + " only"
+             ? "cannot be told, as the reference is known to " + readable_error(result.reference.uncertainty) + " only"
              : "none");
   }
   std::size_t failed = 0;

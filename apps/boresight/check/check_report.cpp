@@ -125,10 +125,7 @@ void add_play_findings(const Mechanism& mechanism, const IdealMotion& ideal, Che
   const PlayMobility play = analyse_play(mechanism, state.bodies);
   for (const std::string& sentence : held_plays(mechanism, play)) result.findings.push_back(sentence);
   for (const std::string& sentence : bound_plays(mechanism, play)) result.notes.push_back(sentence);
-  if (ideal.error() > IdealMotion::kAccuracy)
-    result.notes.push_back(
-        fmt::format("the ideal motion is known to {:.1e} of the mechanism's size, not to {:.0e} as it was sought",
-                    ideal.error(), IdealMotion::kAccuracy));
+  if (const std::string doubt = doubt_of(ideal); !doubt.empty()) result.notes.push_back(doubt);
 }
 
 // Parts that grow, and what is fixed to them but their joints.

@@ -6,10 +6,14 @@
 
 namespace boresight::app {
 
-std::function<void(const Setting&)> trial_of(const std::string& mechanism_file, const std::vector<Setting>& settings) {
-  return [mechanism_file, settings](const Setting& setting) {
+AcceptsSetting trial_of(const std::string& mechanism_file, const std::vector<Setting>& settings) {
+  return [several = trial_of_all(mechanism_file, settings)](const Setting& setting) { several({setting}); };
+}
+
+AcceptsSettings trial_of_all(const std::string& mechanism_file, const std::vector<Setting>& settings) {
+  return [mechanism_file, settings](const std::vector<Setting>& further) {
     std::vector<Setting> all = settings;
-    all.push_back(setting);
+    all.insert(all.end(), further.begin(), further.end());
     const Mechanism tried(read_mechanism(mechanism_file, all));
   };
 }
@@ -21,7 +25,8 @@ StudyInput::StudyInput(const std::string& file, const std::vector<Setting>& sett
       mechanism(read_referred(
           root.origin("mechanism"), "mechanism", study.mechanism_file,
           [&] { return std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, settings)); })),
-      trial(trial_of(study.mechanism_file, settings)) {
+      trial(trial_of(study.mechanism_file, settings)),
+      trial_all(trial_of_all(study.mechanism_file, settings)) {
   check_index(study, *mechanism);
 }
 

@@ -1,7 +1,6 @@
 // A study file as the verbs take it: opened, with its mechanism as --set leaves it.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "boresight/io/cursor.hpp"
 #include "boresight/io/document.hpp"
 #include "boresight/mechanism/mechanism.hpp"
+#include "boresight_analyses/study/legal_corners.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "command_line/command.hpp"
@@ -16,7 +16,10 @@
 namespace boresight::app {
 
 // A check that the mechanism takes one further setting, on top of `settings`: it throws InputError where it does not.
-std::function<void(const Setting&)> trial_of(const std::string& mechanism_file, const std::vector<Setting>& settings);
+AcceptsSetting trial_of(const std::string& mechanism_file, const std::vector<Setting>& settings);
+
+// The same of several further settings together.
+AcceptsSettings trial_of_all(const std::string& mechanism_file, const std::vector<Setting>& settings);
 
 struct StudyInput {
   // Throws InputError.
@@ -28,7 +31,8 @@ struct StudyInput {
   Cursor root;  // stands at what the verb's own plan reads
   Study study;
   std::shared_ptr<const Mechanism> mechanism;
-  std::function<void(const Setting&)> trial;
+  AcceptsSetting trial;
+  AcceptsSettings trial_all;
 };
 
 // 0 turned into 1 where an accuracy was asked for and the pilot could not show it: the answer is then "no". For what is one

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/pointing/relative_text.hpp"
 #include "report_parts/report_parts.hpp"
 #include "results/pilot_parts.hpp"
 #include "terminal/readable.hpp"
@@ -218,8 +219,8 @@ std::string match_sentence(const MatchStudy& s) {
                         value_text(s, r.interval.high), 100.0 * r.interval.confidence);
   text += ".";
   if (!r.feasible)
-    text += fmt::format(" No design was found that keeps all constraints: this one breaks them least, by {:.3g} %.",
-                        100.0 * r.violation);
+    text += fmt::format(" No design was found that keeps all constraints: this one breaks them least, by {}.",
+                        relative_text(r.violation, 3, "the bound"));
   if (!r.confirmation.empty()) text += " Confirmation: " + r.confirmation.front().sentence + ".";
   return text;
 }

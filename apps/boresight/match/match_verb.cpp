@@ -8,6 +8,7 @@
 
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight_analyses/matching/design_slopes.hpp"
+#include "boresight_analyses/matching/designs_tried.hpp"
 #include "boresight_analyses/matching/matching_keys.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/study/design_model.hpp"
@@ -59,18 +60,10 @@ bool any_scene_varies(const MatchingPlan& plan) {
   return plan.inputs && scene_varies(*plan.inputs);
 }
 
-// The middle of the box and its two far corners, everything that scatters at its median.
-std::vector<Parameters> corners_of(const MatchingPlan& plan, const Mechanism& mechanism) {
-  std::vector<Parameters> corners;
-  for (const double share : {0.5, 0.0, 1.0}) {
-    std::vector<double> values;
-    for (const DesignVariable& v : plan.variables)
-      values.push_back(v.from_search(v.to_search(v.from) + share * (v.to_search(v.to) - v.to_search(v.from))));
-    if (plan.inputs)
-      for (const RandomParameter& p : plan.inputs->parameters) values.push_back(p.distribution->quantile(0.5));
-    corners.push_back(plan.parameters_with(mechanism, values));
-  }
-  return corners;
+// About as many designs as it asks for; descents end sooner.
+double designs_asked_for(const MatchingPlan& plan) {
+  return plan.evaluations * (1.0 + 0.5 * static_cast<double>(plan.starts().size() + 1)) +
+         std::pow(plan.map, std::min<double>(2.0, static_cast<double>(plan.variables.size()))) + 12.0 * plan.front;
 }
 
 void write_evaluations(std::ostream& out, const MatchingPlan& plan, const MatchingResult& result) {
@@ -102,7 +95,8 @@ class MatchVerb : public Verb {
     StudyInput input(command.file, command.settings);
     const Study& study = input.study;
     const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
-    const MatchingPlan plan = read_matching_plan(input.root, study, mechanism->description(), input.trial);
+    const MatchingPlan plan =
+        read_matching_plan(input.root, study, mechanism->description(), input.trial, input.trial_all);
     check_rung_name(command.rung);
     const RunOptions asked = motion_.run_options(*mechanism, command.rung);
 
@@ -112,8 +106,8 @@ class MatchVerb : public Verb {
                         identity_of_study(command, *mechanism, plan.sample_text(study), options));
     const OutputDirectory& out = own.out();
 
-    const std::vector<Parameters> corners = corners_of(plan, *mechanism);
-    RungChoice choice = own.run().rung_of_corners(corners, "evaluations.db");
+    const double designs = designs_asked_for(plan);
+    RungChoice choice = own.run().rung_of_designs(designs_tried(plan, *mechanism, designs), "evaluations.db");
     if (asks_how_contacts_move(plan) && integrator_names(choice.name).empty()) {
       if (command.rung != "auto")
         throw InputError({}, "--rung", in_quotes(command.rung),
@@ -130,7 +124,7 @@ class MatchVerb : public Verb {
                                .parameters_of = parameters_of,
                                .index = study.index,
                                .run = asked,
-                               .corners = corners,
+                               .corners = median_motions(plan, *mechanism),
                                .scene_varies = any_scene_varies(plan),
                                .accuracy = accuracy,
                                .samples = plan.inputs && plan.objective.over != Over::nominal,
@@ -178,10 +172,6 @@ class MatchVerb : public Verb {
            store->size() > 0 ? fmt::format("; {} designs known already", store->size()) : "");
       std::fflush(stdout);
     }
-    // About as many designs as it asks for; descents end sooner.
-    const double designs = plan.evaluations * (1.0 + 0.5 * static_cast<double>(plan.starts().size() + 1)) +
-                           std::pow(plan.map, std::min<double>(2.0, static_cast<double>(plan.variables.size()))) +
-                           12.0 * plan.front;
     const std::unique_ptr<Stage> stage = own.run().stage(designs, "designs");
     MatchingOptions how;
     how.accuracy = accuracy;

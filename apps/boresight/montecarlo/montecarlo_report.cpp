@@ -11,6 +11,7 @@
 
 #include "report_parts/report_parts.hpp"
 #include "results/pilot_parts.hpp"
+#include "results/scatter_parts.hpp"
 #include "terminal/readable.hpp"
 
 namespace boresight::app {
@@ -166,12 +167,9 @@ report::Table error_table(const MonteCarloStudy& s) {
       .title = "What each number is uncertain by",
       .caption = {},
       .columns = {{"Of the index"}, {"Sampling", "%"}, {"Discretisation", "%"}, {"Rung", "%"}, {"Dominates"}}};
-  const auto percent = [](double share) {
-    return std::isfinite(share) ? nlohmann::json(100.0 * share) : nlohmann::json();
-  };
   for (const ErrorStatement& e : s.estimates.errors)
-    table.rows.push_back({headline_title(e.of), percent(e.sampling.relative), percent(e.discretisation.relative),
-                          percent(e.rung.relative), e.dominant});
+    table.rows.push_back({headline_title(e.of), error_cell(e.sampling.relative), error_cell(e.discretisation.relative),
+                          error_cell(e.rung.relative), e.dominant});
   if (!s.estimates.errors.empty())
     table.caption = "Sampling: the wider side of the interval; empty: not bounded. Discretisation: " +
                     s.estimates.errors.front().discretisation.why + ". Rung: " + s.estimates.errors.front().rung.why +

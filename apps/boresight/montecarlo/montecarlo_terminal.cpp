@@ -63,9 +63,9 @@ void print(const MonteCarloStudy& s, const OutputDirectory& out) {
   for (const ErrorStatement& e : s.estimates.errors)
     if (e.of == s.estimates.headline)
       tell("  {} is uncertain by sampling {}, discretisation {}, rung {}: {} dominates\n", e.of,
-           std::isfinite(e.sampling.relative) ? readable_share(e.sampling.relative) : "without bound",
-           std::isfinite(e.discretisation.relative) ? readable_share(e.discretisation.relative) : "not measured",
-           readable_share(e.rung.relative), e.dominant);
+           std::isfinite(e.sampling.relative) ? readable_error(e.sampling.relative) : "without bound",
+           std::isfinite(e.discretisation.relative) ? readable_error(e.discretisation.relative) : "not measured",
+           readable_error(e.rung.relative), e.dominant);
   if (s.estimates.requirement) tell("  {}\n", verdict_sentence(s));
   for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
   tell("  report: {}\n", (out.path() / "report.html").string());

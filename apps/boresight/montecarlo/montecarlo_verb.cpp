@@ -142,7 +142,7 @@ class MonteCarloVerb : public Verb {
         on_any_rank.model_of_scatter(heard["rung"], question.plan.inputs, model_options);
     const SampleModel& model = *sampled;
     MonteCarloOptions options{.folder = heard["folder"].get<std::string>(),
-                              .facts = {{"study", on_any_rank.hash()}},
+                              .facts = on_any_rank.facts(),
                               .jobs = command.jobs,
                               .progress = {},
                               .interrupted = [] { return interrupted(); }};
@@ -184,16 +184,14 @@ class MonteCarloVerb : public Verb {
   std::unique_ptr<SampleStore> open_store(const VerbStudy& own, const MonteCarloQuestion& question) const {
     std::unique_ptr<SampleStore> store = own.open_samples("", question.plan.inputs.names(), resumption_);
     merge_shards(*store, own.out().path());
-    if (store->fact("mechanism").empty()) {
-      store->note("mechanism", question.mechanism->name());
-      store->note("mechanism_hash", question.mechanism->description().content_hash);
-      store->note("index", question.study.index.quantity + "." + question.study.index.statistic);
-      store->note("unit", question.study.index.si_unit());
-      store->note("seed", std::to_string(question.plan.design.seed));
-      store->note("inputs", question.plan.inputs.text);
-      store->note("design", question.plan.design.text());
-      store->note("version", BORESIGHT_VERSION);
-    }
+    if (store->fact("mechanism").empty())
+      store->note({{"mechanism", question.mechanism->name()},
+                   {"mechanism_hash", question.mechanism->description().content_hash},
+                   {"index", question.study.index.quantity + "." + question.study.index.statistic},
+                   {"unit", question.study.index.si_unit()},
+                   {"seed", std::to_string(question.plan.design.seed)},
+                   {"inputs", question.plan.inputs.text},
+                   {"design", question.plan.design.text()}});
     return store;
   }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "boresight/pointing/relative_text.hpp"
 #include "terminal/readable.hpp"
 
 namespace boresight::app {
@@ -38,6 +39,11 @@ bool scatters(const MeasuredError& measured, const IndexChoice& of) {
   return false;
 }
 
+std::string of_what_is_found(double relative) {
+  return relative < kSaidAsMultiple ? readable_share(relative) + " of what is found"
+                                    : relative_text(relative, 3, "what is found");
+}
+
 }  // namespace
 
 std::string steps_mislead(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of,
@@ -48,11 +54,11 @@ std::string steps_mislead(const MeasuredError& measured, const PointingIndices& 
     return "";
   if (scatters(measured, of))
     return fmt::format(
-        "{}: neighbouring {} lie as far from each other as {} of what is found: this motion is not followed; take "
+        "{}: neighbouring {} lie as far from each other as {}: this motion is not followed; take "
         "a smaller --step, or ask for a mean over many motions",
-        of.title(), measured.by_instants ? "instants" : "steps", readable_share(relative));
-  return fmt::format("{}: what {} leave out is {} of what is found: {}", of.title(),
-                     measured.by_instants ? "the instants" : "the steps", readable_share(relative),
+        of.title(), measured.by_instants ? "instants" : "steps", of_what_is_found(relative));
+  return fmt::format("{}: what {} leave out is {}: {}", of.title(), measured.by_instants ? "the instants" : "the steps",
+                     of_what_is_found(relative),
                      measured.by_instants
                          ? "where journals rest is not followed from one instant to the next; take another rung"
                          : "this motion is not followed; take a smaller --step");
@@ -66,7 +72,7 @@ std::string step_error_sentence(const MeasuredError& measured, const PointingInd
   return fmt::format("{}: within {} of what {} give{}; {}, {} of CPU", of.title(),
                      relative < kOfRounding || (relative > 1.0 && is_nothing(of.of(measured.stated), of, size))
                          ? "rounding"
-                         : readable_share(relative),
+                         : readable_error(relative),
                      measured.by_instants ? "closer instants" : "smaller steps",
                      relative > 1e-3 && scatters(measured, of)
                          ? ", as far as neighbouring steps lie from each other: one motion of many"
@@ -81,10 +87,11 @@ ModelErrorSaid model_error_said(const RunResult& result, const IndexChoice& of, 
   // Where nothing is found only a share of what another rung finds can be many times that.
   const bool nothing = is_nothing(of.of(result.index), of, size);
   if (result.error.basis.empty() || !(share > kOfRounding) || (nothing && share < kManyTimes)) return {};
-  const std::string about = nothing              ? std::string("far more than it finds")
-                            : share < 1.0        ? fmt::format("about {} of it", readable_share(share))
-                            : share < kManyTimes ? std::string("anything up to the whole of it")
-                                                 : fmt::format("up to {:.2g} times what it finds", share);
+  const std::string about = nothing                   ? std::string("far more than it finds")
+                            : share < 1.0             ? fmt::format("about {} of it", readable_share(share))
+                            : share < kManyTimes      ? std::string("anything up to the whole of it")
+                            : share < kSaidAsMultiple ? fmt::format("up to {:.2g} times what it finds", share)
+                                                      : "up to " + relative_text(share, 2, "what it finds");
   ModelErrorSaid said{
       fmt::format("{}: what the {} rung leaves out is {}, by its own estimate", of.title(), result.rung, about), ""};
   if (share > kMuch) said.warning = said.sentence + "; --rung multibody leaves nothing of that out";

@@ -76,8 +76,8 @@ report::Table tried_table(const PilotResult& pilot) {
       table.rows.push_back({way_of(t), fineness_of(t), nullptr, nullptr, nullptr, "refused: " + t.refusal});
       continue;
     }
-    table.rows.push_back({way_of(t), fineness_of(t), number_json(100.0 * t.error), 100.0 * t.estimate,
-                          1e3 * t.cpu_seconds, chosen ? (pilot.met ? "taken" : "taken, not shown") : missed});
+    table.rows.push_back({way_of(t), fineness_of(t), error_cell(t.error), error_cell(t.estimate), 1e3 * t.cpu_seconds,
+                          chosen ? (pilot.met ? "taken" : "taken, not shown") : missed});
   }
   return table;
 }
@@ -103,7 +103,7 @@ report::Section pilot_section(const PilotResult& pilot) {
       pilot.index, readable_share(pilot.accuracy),
       pilot.pairs > 0 ? fmt::format("computed {} samples of the scatter in every way", pilot.pairs)
                       : "ran the rungs at neighbouring steps",
-      readable_share(pilot.reference_error), readable(pilot.cpu_seconds, "s"), pilot.why)});
+      readable_error(pilot.reference_error), readable(pilot.cpu_seconds, "s"), pilot.why)});
   report::Chart chart{
       .title = "Accuracy against speed",
       .caption =

@@ -4,9 +4,16 @@
 
 #include <cmath>
 
+#include "boresight/pointing/relative_text.hpp"
+
 namespace boresight::app {
 
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json error_cell(double relative) {
+  if (!std::isfinite(relative)) return {};
+  return std::abs(relative) < kSaidAsMultiple ? Json(100.0 * relative) : Json(relative_text(relative));
+}
 
 Json interval_json(const ReportedInterval& i) {
   return {{"value", number_json(i.value)}, {"low", number_json(i.low)},           {"high", number_json(i.high)},

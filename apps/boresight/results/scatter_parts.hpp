@@ -11,6 +11,8 @@
 namespace boresight::app {
 
 Json number_json(double value);  // NaN and infinity, which JSON has not, are null
+// Of a relative error, in a report's column of percentages: the number, or words where it is many times the value itself.
+Json error_cell(double relative);
 Json interval_json(const ReportedInterval& interval);
 
 // For a warning that samples failed: why, from the first of them. what: "sample", "run", ...

@@ -9,9 +9,10 @@ namespace boresight::app {
 
 std::vector<std::string> start_warnings(const Mechanism& mechanism, const std::string& rung) {
   std::vector<std::string> warnings;
-  if (mechanism.clearances() == 0) return warnings;
   try {
+    if (mechanism.clearances() == 0 && is_kinematic(mechanism)) return warnings;
     const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
+    if (const std::string doubt = doubt_of(ideal); !doubt.empty()) warnings.push_back(doubt);
     const StartingJournals start = starting_journals(mechanism, mechanism.parameters(), ideal);
     if (!start.remark.empty()) warnings.push_back(start.remark);
     if (!start.warning.empty() && rung != "envelope" && rung != "quasistatic") warnings.push_back(start.warning);

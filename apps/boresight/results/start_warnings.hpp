@@ -1,4 +1,5 @@
-// What a study's reader should know of how its motions begin: said of the drawing, once, for all of its samples.
+// What a study's reader should know of how its motions begin: said once, for all of its samples, of the mechanism with the values of its file,
+// standing errors among them.
 #pragma once
 
 #include <string>
@@ -8,9 +9,9 @@
 
 namespace boresight::app {
 
-// That loads tip journals over to a side that nothing decides (scene/tipping.hpp), and, on rungs that follow a motion, that no position of
-// rest was found. Samples
-// whose masses or loads are far from the drawing's may do otherwise. Empty where nothing is to be said, or nothing could be found out.
+// That the ideal motion is not known as well as it was sought (ideal_simulation.hpp), that loads tip journals over to a side that nothing
+// decides (scene/tipping.hpp), and, on rungs that follow a motion, that no position of rest was found. Samples whose masses, loads or errors
+// are far from the file's may do otherwise. Empty where nothing is to be said, or nothing could be found out.
 std::vector<std::string> start_warnings(const Mechanism& mechanism, const std::string& rung);
 
 }  // namespace boresight::app

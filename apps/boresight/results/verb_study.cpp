@@ -27,7 +27,8 @@ class StageOnTerminal final : public Stage {
 };
 
 // Copies samples.db from the folder that the study goes on from, where one was named. Throws OutputDirectoryError, StoreRefused.
-void bring_runs(const OutputDirectory& out, const std::string& study_hash, const Resumption& resumption) {
+void bring_runs(const OutputDirectory& out, const std::map<std::string, std::string>& facts,
+                const Resumption& resumption) {
   namespace fs = std::filesystem;
   if (resumption.from.empty()) return;
   const fs::path source = fs::path(resumption.from) / "samples.db", target = out.path() / "samples.db";
@@ -43,9 +44,11 @@ void bring_runs(const OutputDirectory& out, const std::string& study_hash, const
     throw OutputDirectoryError("--from " + resumption.from + ": a run is writing there; wait for it to end");
   {
     const SampleStore found(source);  // refuses what is no store
-    if (found.fact("study") != study_hash)
+    if (found.fact("study") != facts.at("study"))
       throw OutputDirectoryError("--from " + resumption.from +
                                  ": holds the samples of another study (other file, settings or options)");
+    if (const std::string another = found.another_than(facts); !another.empty())
+      throw OutputDirectoryError("--from " + resumption.from + ": holds " + another + "; begin without it");
   }
   // The log first: a store without its log lacks its last samples, a log without its store is nothing.
   for (const char* suffix : {"-wal", ""}) {
@@ -87,7 +90,8 @@ nlohmann::json identity_of_study(const Command& command, const Mechanism& mechan
 
 StudyRunOptions run_options_of(const Command& command, const IndexChoice& index,
                                const std::optional<double>& study_accuracy, const RunOptions& run) {
-  return {.rung = command.rung,
+  return {.version = BORESIGHT_VERSION,
+          .rung = command.rung,
           .accuracy = command.accuracy ? command.accuracy : study_accuracy,
           .index = index,
           .run = run,
@@ -109,7 +113,7 @@ VerbStudy::VerbStudy(const Command& command, const std::shared_ptr<const Mechani
 std::unique_ptr<SampleStore> VerbStudy::open_samples(const std::string& decides,
                                                      const std::vector<std::string>& parameters,
                                                      const Resumption& resumption) const {
-  bring_runs(out_, run_.hash(decides), resumption);
+  bring_runs(out_, run_.facts(decides), resumption);
   return run_.open_samples(decides, parameters);
 }
 

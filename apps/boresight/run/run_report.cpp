@@ -9,6 +9,7 @@
 #include "report_parts/mechanism_view.hpp"
 #include "report_parts/report_parts.hpp"
 #include "results/pilot_parts.hpp"
+#include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 
 namespace boresight::app {
@@ -205,7 +206,7 @@ report::Section model_section(const std::string& leaves_out, const RunResult& re
     std::vector<std::string> shares;
     for (const QuantityName& quantity : quantity_names())
       if (quantity.kind != PointingQuantity::line_of_sight_error || result.index.has_line_of_sight)
-        shares.push_back(fmt::format("{} ({})", readable_share(error.model_of(quantity.kind)), quantity.title));
+        shares.push_back(fmt::format("{} ({})", readable_error(error.model_of(quantity.kind)), quantity.title));
     section.items.push_back(report::Text{
         fmt::format("By its own estimate what is left out puts the indices off by about {}. Taken from: {}.",
                     fmt::join(shares, ", "), error.basis)});
@@ -229,7 +230,7 @@ report::Section model_section(const std::string& leaves_out, const RunResult& re
                                   {"Remark"}}};
   const auto change = [](double other, double own) -> nlohmann::json {
     if (own <= kRounding && other <= kRounding) return nullptr;  // nothing on both
-    return 100.0 * (other / own - 1.0);
+    return error_cell(other / own - 1.0);
   };
   for (const Compared& other : others) {
     if (!other.refusal.empty()) {
@@ -241,8 +242,8 @@ report::Section model_section(const std::string& leaves_out, const RunResult& re
                           change(a.position_error.rms, b.position_error.rms),
                           change(a.boresight_error.max, b.boresight_error.max),
                           change(a.boresight_error.rms, b.boresight_error.rms), 1e3 * other.result.cost.cpu_seconds,
-                          100.0 * other.result.error.model_of(PointingQuantity::position_error),
-                          100.0 * other.result.error.model_of(PointingQuantity::boresight_error), ""});
+                          error_cell(other.result.error.model_of(PointingQuantity::position_error)),
+                          error_cell(other.result.error.model_of(PointingQuantity::boresight_error)), ""});
   }
   section.items.push_back(std::move(table));
   return section;
@@ -255,7 +256,7 @@ std::string predictability_sentence(const Predictability& found) {
   if (!found.parted)
     return fmt::format("{} stays within {} of the clearance over the whole motion", twin, readable_share(kPartedShare));
   const std::string indices = fmt::format("the indices, which differ by {} (max) and {} (RMS) between the two",
-                                          readable_share(found.max_difference), readable_share(found.rms_difference));
+                                          readable_error(found.max_difference), readable_error(found.rms_difference));
   if (!(found.horizon > 0.0))
     return fmt::format("the clearance is so small that {} is a good part of it: judge {}", twin, indices);
   return fmt::format(

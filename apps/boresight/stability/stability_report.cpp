@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/stability/amplification.hpp"
 #include "report_parts/report_parts.hpp"
 #include "terminal/readable.hpp"
@@ -193,9 +194,9 @@ report::Section baumgarte_section(const BaumgarteMap& map) {
           "hold, and take thousands of steps to act."};
   report::Chart chart{.title = "Drift over both gains times the step",
                       .caption = fmt::format("Blue: it dies; orange: it grows. Measured; where |R| lies "
-                                             "between 0.1 and 2 it differs from theory by at most {:.2g} %. "
+                                             "between 0.1 and 2 it differs from theory by at most {}. "
                                              "The line is |R| = 1 in theory.",
-                                             100.0 * map.largest_difference),
+                                             relative_text(map.largest_difference)),
                       .x = {"αh", "", true},
                       .y = {"βh", "", true}};
   report::Heatmap heat{.x = map.alpha_h, .y = map.beta_h, .label = "decades in 100 steps", .diverging = true};

@@ -6,6 +6,7 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/stability/stability.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
@@ -142,7 +143,7 @@ void print(const Mechanism& mechanism, const StabilityResult& result, const Outp
     tell("  Baumgarte: {} limits on the drift of {}; {}\n", result.baumgarte.limits.size(), result.baumgarte.joint,
          std::isinf(result.largest_difference())
              ? std::string("not all limits are where theory has them, nor near")
-             : fmt::format("all limits within {:.2g} % of theory", 100.0 * result.largest_difference()));
+             : fmt::format("all limits within {} of theory", relative_text(result.largest_difference())));
   for (const FailureCase& c : result.cases) tell("  {:<8} {}: {}\n", to_string(c.standing), c.name, c.measured);
   for (const std::string& warning : result.warnings) tell("  warning: {}\n", warning);
   tell("  report: {}\n", (out.path() / "report.html").string());

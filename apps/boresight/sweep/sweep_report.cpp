@@ -9,13 +9,11 @@
 #include "boresight_analyses/sweep/sweep_line.hpp"
 #include "report_parts/report_parts.hpp"
 #include "results/pilot_parts.hpp"
+#include "sweep/drawn_combinations.hpp"
 #include "sweep/published_findings.hpp"
 
 namespace boresight::app {
 namespace {
-
-// More curves than this in one panel cannot be told apart.
-constexpr std::size_t kMostOverlaid = 8;
 
 std::vector<Overlay> overlays_of(const SweepPlan& plan, const SweepResult& result) {
   std::vector<Overlay> overlays;
@@ -51,10 +49,7 @@ report::Chart against_parameter(const std::string& title, const std::string& lab
   const DisplayUnit y_unit = display_unit(si_unit, most);
   report::Chart chart{.title = title, .caption = {}, .x = {axis.name(), x_unit.name}, .y = {label, y_unit.name}};
   const std::size_t runs = plan.points() / axis.values.size();  // combinations of the other axes
-  if (runs > kMostOverlaid)
-    chart.caption =
-        fmt::format("The first {} of {} combinations of the other parameters; sweep.csv has all.", kMostOverlaid, runs);
-  for (std::size_t r = 0; r < std::min(runs, kMostOverlaid); ++r) {
+  for (const std::size_t r : drawn_combinations(plan).combinations) {
     for (const Measure& m : measures) {
       report::Numbers x, y;
       std::vector<std::pair<double, double>> points;
@@ -92,6 +87,7 @@ report::Section index_section(const Study& study, const SweepPlan& plan, const S
   report::Section section{.id = "index",
                           .title = "The index against the parameter",
                           .intro = "The study's index is the " + study.index.title() + ". " + study.index.definition()};
+  if (const std::string drawn = drawn_combinations(plan).sentence(plan); !drawn.empty()) section.intro += " " + drawn;
   report::Panels panels{.title = "Index", .caption = rotations_note(result), .columns = 2};
   const auto of = [](const char* quantity, const char* statistic) {
     return [choice = IndexChoice{quantity, statistic}](const RunResult& r) { return choice.of(r.index); };
@@ -114,7 +110,8 @@ report::Section index_section(const Study& study, const SweepPlan& plan, const S
 
 report::Section contact_section(const Mechanism& mechanism, const SweepPlan& plan, const SweepResult& result,
                                 const std::vector<Overlay>& overlays) {
-  report::Section section{.id = "contact", .title = "Contacts and accelerations"};
+  report::Section section{
+      .id = "contact", .title = "Contacts and accelerations", .intro = drawn_combinations(plan).sentence(plan)};
   report::Chart peaks =
       against_parameter("Peak acceleration of the platform", "peak acceleration", "m/s^2", plan, result,
                         {{"x", [](const RunResult& r) { return r.platform_acceleration_max.x(); }},

@@ -121,7 +121,7 @@ class SweepVerb : public Verb {
     StudyInput input(command.file, command.settings);
     const Study& study = input.study;
     const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
-    const SweepPlan plan = read_sweep_plan(input.root, mechanism->description(), input.trial);
+    const SweepPlan plan = read_sweep_plan(input.root, mechanism->description(), input.trial, input.trial_all);
     check_rung_name(command.rung);
     SweepOptions options;
     options.run = motion_.run_options(*mechanism, command.rung);

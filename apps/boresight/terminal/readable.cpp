@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "boresight/keys/units.hpp"
+#include "boresight/pointing/relative_text.hpp"
 
 namespace boresight::app {
 namespace {
@@ -88,6 +89,9 @@ std::string readable_arcsec(double radians) {
   return digits(radians * 180.0 / std::numbers::pi * 3600.0) + " arcsec";
 }
 std::string readable_share(double share) { return std::isfinite(share) ? digits(100.0 * share) + " %" : kNotKnown; }
+std::string readable_error(double relative) {
+  return std::abs(relative) < kSaidAsMultiple ? readable_share(relative) : relative_text(relative);
+}
 std::string readable_number(double value) { return std::isfinite(value) ? digits(value) : kNotKnown; }
 
 }  // namespace boresight::app

@@ -14,7 +14,8 @@ std::string readable(double value, const std::string& si_unit);
 std::string readable_as(double value, const std::string& si_unit, const std::string& written);
 
 std::string readable_arcsec(double radians);
-std::string readable_share(double share);  // 0.937 is "93.7 %"
+std::string readable_share(double share);     // 0.937 is "93.7 %"
+std::string readable_error(double relative);  // as a share, or in words where it is many times the value itself
 std::string readable_number(double value);
 
 // The unit in which an axis or a column up to `largest` (SI) is drawn, and how many of it make one SI unit.

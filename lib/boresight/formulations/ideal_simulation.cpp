@@ -1,6 +1,7 @@
 #include "boresight/formulations/ideal_simulation.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -34,7 +35,8 @@ struct Task {
 // Why a simulation failed, and when.
 struct Failure {
   double t = 0.0;
-  std::string reason;  // empty: the motion grew without bound
+  std::string reason;        // empty: the motion grew without bound
+  bool unconfirmed = false;  // one run came to its end, and no second one
 };
 
 // The mechanism without clearance as an initial value problem, in joint coordinates: planar loops, redundant when drawn in
@@ -103,8 +105,7 @@ std::optional<Knots> follow_explicit(const Task& task, int steps, Failure& failu
 }
 
 // RODAS4 under error control, which steps over what springs and dampers have damped out; knots where its steps end.
-std::optional<Knots> follow_implicit(const Task& task, double tolerance, Failure& failure) {
-  constexpr long kMostSteps = 200'000;  // held in memory
+std::optional<Knots> follow_implicit(const Task& task, double tolerance, long most_steps, Failure& failure) {
   const double duration = task.mechanism.duration();
   ClosedMechanism closed(task);
   VecX y = closed.start(), dy = y;
@@ -115,7 +116,7 @@ std::optional<Knots> follow_implicit(const Task& task, double tolerance, Failure
   for (int k = 0; k < y.size(); ++k)
     if (closed.formulation().is_speed(k)) options.absolute_tolerances[k] *= std::max(1.0, 100.0 / duration);
   options.largest_step = std::min(duration / 200.0, kStepOfLoads * load_time(task.mechanism));
-  options.most_steps = kMostSteps;
+  options.most_steps = most_steps;
   Knots knots{closed.bodies(0.0, y, dy)};
   Integrator<RosenbrockMethod> integrator(RosenbrockMethod(rodas4(), y.size()));
   try {
@@ -131,14 +132,21 @@ std::optional<Knots> follow_implicit(const Task& task, double tolerance, Failure
   return std::nullopt;
 }
 
+// Of one body in two motions, in characteristic lengths and radians; infinity where either is nowhere.
+double difference(const BodyMotion& x, const BodyMotion& y, double length) {
+  const double apart = std::max((x.p - y.p).norm() / length, (x.R - y.R).norm());
+  const bool known = x.p.allFinite() && y.p.allFinite() && x.R.allFinite() && y.R.allFinite();
+  return known ? apart : std::numeric_limits<double>::infinity();
+}
+
 // Largest difference of two motions at the knots of the coarser one and between them.
 double difference(const IdealMotion& coarse, const Knots& knots, const IdealMotion& fine, double length) {
   double worst = 0.0;
   for (std::size_t k = 0; k < knots.size(); ++k)
     for (const double t : {knots[k].t, 0.5 * (knots[k].t + knots[std::min(k + 1, knots.size() - 1)].t)})
       for (std::size_t b = 0; b < knots[k].bodies.size(); ++b) {
-        const BodyMotion x = coarse.body(t, static_cast<int>(b)), y = fine.body(t, static_cast<int>(b));
-        worst = std::max({worst, (x.p - y.p).norm() / length, (x.R - y.R).norm()});
+        const int body = static_cast<int>(b);
+        worst = std::max(worst, difference(coarse.body(t, body), fine.body(t, body), length));
       }
   return worst;
 }
@@ -146,10 +154,8 @@ double difference(const IdealMotion& coarse, const Knots& knots, const IdealMoti
 double difference(const Knots& coarse, const Knots& fine, double length) {
   double worst = 0.0;
   for (std::size_t k = 0; k < coarse.size(); ++k)
-    for (std::size_t b = 0; b < coarse[k].bodies.size(); ++b) {
-      const BodyMotion &x = coarse[k].bodies[b], &y = fine[2 * k].bodies[b];
-      worst = std::max({worst, (x.p - y.p).norm() / length, (x.R - y.R).norm()});
-    }
+    for (std::size_t b = 0; b < coarse[k].bodies.size(); ++b)
+      worst = std::max(worst, difference(coarse[k].bodies[b], fine[2 * k].bodies[b], length));
   return worst;
 }
 
@@ -166,7 +172,8 @@ std::optional<IdealMotion> explicit_motion(const Task& task, int fewest, int mos
     if (coarse && fine) {
       // Fourth order: the finer run's error is a fifteenth of the difference.
       const double error = difference(*coarse, *fine, task.mechanism.characteristic_length()) / 15.0;
-      if (error < IdealMotion::kAccuracy || 2 * steps > most) return IdealMotion(task.mechanism, *fine, error);
+      if (error < IdealMotion::kAccuracy || (2 * steps > most && std::isfinite(error)))
+        return IdealMotion(task.mechanism, *fine, error);
     }
     if (!fine) {
       alike = before.t > 0.0 && std::abs(failure.t - before.t) < kSameTime * failure.t ? alike + 1 : 0;
@@ -178,25 +185,32 @@ std::optional<IdealMotion> explicit_motion(const Task& task, int fewest, int mos
   return std::nullopt;
 }
 
-// Tolerances tightened until two motions agree.
-std::optional<IdealMotion> implicit_motion(const Task& task, Failure& failure) {
+// Tolerances tightened until two motions agree. Where one alone gets to its end, a looser one tells what it is wrong by; without that it is
+// none, and the failure says so.
+std::optional<IdealMotion> implicit_motion(const Task& task, long most_steps, Failure& failure) {
   constexpr double kFirst = 1e-9, kLast = 1e-13, kTightening = 0.1;
   const double length = task.mechanism.characteristic_length();
   std::optional<Knots> knots;
   std::optional<IdealMotion> coarse;
   double best = std::numeric_limits<double>::infinity();
   for (double tolerance = kFirst; tolerance >= kLast && best >= IdealMotion::kAccuracy; tolerance *= kTightening) {
-    std::optional<Knots> finer = follow_implicit(task, tolerance, failure);
-    if (!finer) return coarse;
+    std::optional<Knots> finer = follow_implicit(task, tolerance, most_steps, failure);
+    if (!finer) break;
     const IdealMotion fine(task.mechanism, *finer);
     // The coarser one's error, which bounds the finer one's; where it grows again, rounding has been reached.
     const double error = coarse ? difference(*coarse, *knots, fine, length) : best;
-    if (error > best) return coarse;
+    if (error > best) break;
     best = error;
     coarse.emplace(task.mechanism, *finer, error);
     knots = std::move(finer);
   }
-  return coarse;
+  if (!coarse || std::isfinite(best)) return coarse;
+  Failure of_looser;
+  if (const std::optional<Knots> looser = follow_implicit(task, kFirst / kTightening, most_steps, of_looser))
+    best = difference(IdealMotion(task.mechanism, *looser), *looser, *coarse, length);
+  if (std::isfinite(best)) return IdealMotion(task.mechanism, *knots, best);
+  failure.unconfirmed = true;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -229,9 +243,19 @@ IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameter
   return is_kinematic(mechanism) ? IdealMotion::kinematic(mechanism) : simulated_motion(mechanism, parameters);
 }
 
-IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& parameters) {
-  // Explicit steps beyond which an implicit method takes less time; and the most that are held in memory.
-  constexpr int kFewestSteps = 1000, kManySteps = 16000, kMostSteps = 1 << 19;
+std::string doubt_of(const IdealMotion& motion) {
+  if (!(motion.error() > IdealMotion::kAccuracy)) return "";
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the ideal motion is known to %.1e of the mechanism's size, not to %.0e as it was sought; so are the "
+                "deviations from it",
+                motion.error(), IdealMotion::kAccuracy);
+  return text;
+}
+
+IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& parameters, const SimulationSize& most) {
+  // Explicit steps beyond which an implicit method takes less time.
+  constexpr int kFewestSteps = 1000, kManySteps = 16000;
   IdealState start = home_state(mechanism);
   // A motion that carries nothing but the drives' laws, which the simulation needs before there is a motion.
   const IdealMotion laws_only(mechanism, {start, [&] {
@@ -248,15 +272,20 @@ IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& param
   const double rate = fastest_own_rate(closed.formulation(), 0.0, closed.start());
   int steps = kFewestSteps;
   const double of_loads = kStepOfLoads * load_time(mechanism);
-  while (steps < kMostSteps && steps * of_loads < mechanism.duration()) steps *= 2;
-  while (steps < kMostSteps && steps * kStableAngle < rate * mechanism.duration()) steps *= 2;
+  while (steps < most.explicit_steps && steps * of_loads < mechanism.duration()) steps *= 2;
+  while (steps < most.explicit_steps && steps * kStableAngle < rate * mechanism.duration()) steps *= 2;
   const bool few = steps <= kManySteps;
   std::optional<IdealMotion> motion;
   Failure failure, of_implicit;
-  if (few) motion = explicit_motion(task, steps, kMostSteps, failure);
-  if (!motion) motion = implicit_motion(task, of_implicit);
-  if (!motion && !few) motion = explicit_motion(task, std::min(steps, kMostSteps / 2), kMostSteps, failure);
+  if (few) motion = explicit_motion(task, steps, most.explicit_steps, failure);
+  if (!motion) motion = implicit_motion(task, most.implicit_steps, of_implicit);
+  if (!motion && !few)
+    motion = explicit_motion(task, std::min(steps, most.explicit_steps / 2), most.explicit_steps, failure);
   if (motion) return *std::move(motion);
+  if (of_implicit.unconfirmed)
+    throw ComputationError(
+        "the ideal motion, simulated without clearance: one run came to its end, and no second one that could tell how "
+        "well it is known; shorten motion.duration to what has to be seen");
   if (!failure.reason.empty())
     throw ComputationError("the ideal motion, simulated without clearance: " + failure.reason);
   throw ComputationError("the ideal motion, simulated without clearance, grows without bound before t = " +

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "boresight/mechanism/ideal_motion.hpp"
 
@@ -19,8 +20,18 @@ bool is_kinematic(const Mechanism& mechanism);
 // Throws ComputationError where the motion cannot be followed.
 IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameters);
 
-// The same where freedoms are left that nothing drives.
-IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& parameters);
+// Steps of a simulation at most: all are held in memory.
+struct SimulationSize {
+  int explicit_steps = 1 << 19;
+  long implicit_steps = 200'000;
+};
+
+// The same where freedoms are left that nothing drives. Throws ComputationError too where one run alone comes to its end: nothing tells then
+// what it is wrong by.
+IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& parameters, const SimulationSize& most = {});
+
+// For a result's warnings: that the motion is not known as well as it was sought. Empty where it is.
+std::string doubt_of(const IdealMotion& motion);
 
 // A sample's mechanism as it is built, and its motion without clearance.
 struct BuiltMotion {

@@ -7,6 +7,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
+#include "boresight/mechanism/strained_joints.hpp"
 
 namespace boresight {
 namespace {
@@ -172,11 +173,16 @@ void ErrorInfluence::solve_dense(const std::vector<bool>& wanted, double t, MatX
     VecX x = qr.solve(right);
     x += qr.solve(VecX(right - unit.asDiagonal() * (J * x)));
     const VecX left = right - unit.asDiagonal() * (J * x);
-    Eigen::Index worst = 0;
-    if (left.cwiseAbs().maxCoeff(&worst) > std::max(kContradiction * right.cwiseAbs().maxCoeff(), kRounding * asked_))
-      throw ComputationError("error." + errors[e].name + " strains the mechanism, which holds \"" +
-                             mechanism_.description().joints[joint_of[static_cast<std::size_t>(worst)]].name +
-                             "\" more than once: without play or something that gives its joints do not close");
+    if (left.cwiseAbs().maxCoeff() > std::max(kContradiction * right.cwiseAbs().maxCoeff(), kRounding * asked_)) {
+      std::vector<double> open(static_cast<std::size_t>(mechanism_.joints()), 0.0);
+      for (std::size_t i = 0; i < joint_of.size(); ++i) {
+        double& joint = open[static_cast<std::size_t>(joint_of[i])];
+        joint = std::max(joint, std::abs(left[static_cast<Eigen::Index>(i)]));
+      }
+      throw ComputationError("error." + errors[e].name + " strains the mechanism, whose " +
+                             strained_joints(mechanism_, open) +
+                             " not close with it: there is no play for it, and nothing gives");
+    }
     G.col(e) = scale_.asDiagonal() * x;
     drop_rounding(e, G);
     add_shift(static_cast<std::size_t>(e), G);

@@ -1,12 +1,14 @@
 #include "boresight/mechanism/ideal_solver.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
+#include "boresight/mechanism/strained_joints.hpp"
 
 namespace boresight {
 namespace {
@@ -21,24 +23,19 @@ constexpr double kExact = 1e-15;
 constexpr double kLargestCorrection = 0.3;  // [characteristic length or rad]: beyond it the branch could change
 constexpr double kAnyCorrection = std::numeric_limits<double>::infinity();
 
-// Why joints do not close at home, by the joint that stays open most.
+// Why joints do not close at home, by those that stay open.
 std::string left_open(const Mechanism& mechanism, const ConstraintSystem& system) {
   const double length = mechanism.characteristic_length();
-  double most = -1.0;
-  int worst = 0;
+  std::vector<double> open(static_cast<std::size_t>(mechanism.joints()), 0.0);
   for (int k = 0; k < static_cast<int>(system.joints().size()); ++k)
     for (int i = 0; i < system.joints()[k].count(); ++i) {
-      const double open = std::abs(system.rows(k).value[i]) / (system.joints()[k].is_distance(i) ? length : 1.0);
-      if (open > most) {
-        most = open;
-        worst = system.joints()[k].joint();
-      }
+      double& joint = open[static_cast<std::size_t>(system.joints()[k].joint())];
+      joint = std::max(joint, std::abs(system.rows(k).value[i]) / (system.joints()[k].is_distance(i) ? length : 1.0));
     }
-  const std::string joint = '"' + mechanism.description().joints[worst].name + '"';
+  const std::string joints = strained_joints(mechanism, open);
   return mechanism.built()
-             ? "the built mechanism's joints do not close, " + joint +
-                   " stays open most: it cannot take up its errors without straining"
-             : "the joints do not close at home, " + joint + " stays open most: the drawing's points and axes disagree";
+             ? "the built mechanism's " + joints + " not close: its errors cannot be taken up without straining"
+             : "the " + joints + " not close at home: the drawing's points and axes disagree";
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 // it is done throws.
 #pragma once
 
+#include <atomic>
+
 namespace boresight {
 
 // Not a std::exception: what recovers from failures must not take it for one.
@@ -19,7 +21,24 @@ using WorkWatch = bool (*)(const char* what, double share);
 // Null: nobody watches.
 void watch_work(WorkWatch watch);
 
-// Throws Interrupted where the watch wants the work to stop.
+// While it lives, this thread's work ends once `stop` is set, whatever the watch of the process says: one answer of many that are
+// computed side by side. One inside another adds to it.
+class StopOfThread {
+ public:
+  explicit StopOfThread(const std::atomic<bool>& stop);
+  ~StopOfThread();
+  StopOfThread(const StopOfThread&) = delete;
+  StopOfThread& operator=(const StopOfThread&) = delete;
+
+  // Whether any that lives in this thread is set.
+  static bool any_set();
+
+ private:
+  const std::atomic<bool>& stop_;
+  const StopOfThread* outer_;
+};
+
+// Throws Interrupted where the watch, or a StopOfThread, wants the work to stop.
 void work_reached(const char* what, double share);
 
 }  // namespace boresight

@@ -11,6 +11,7 @@ namespace boresight {
 namespace {
 
 constexpr double kFewest = 1024.0, kMost = 65536.0;  // looks along a motion
+constexpr double kMostAtErrors = 16384.0;            // each asks every law
 
 // Of a look: both ends, and between them no two apart by a whole number of anything's periods, which would look like no change at all.
 double time_of_look(int look, int looks, double duration) {
@@ -33,8 +34,8 @@ struct Course {
   }
 };
 
-int looks_along(double duration) {
-  return static_cast<int>(std::clamp(std::ceil(duration / kLookedAt), kFewest, kMost));
+int looks_along(double duration, double most) {
+  return static_cast<int>(std::clamp(std::ceil(duration / kLookedAt), kFewest, most));
 }
 
 }  // namespace
@@ -42,7 +43,7 @@ int looks_along(double duration) {
 double load_time(const Mechanism& mechanism) {
   constexpr double kNothing = 1e-6;  // a load that moves nothing that anybody sees may change as fast as it likes
   const double duration = mechanism.duration();
-  const int looks = looks_along(duration);
+  const int looks = looks_along(duration, kMost);
   struct Change {
     double range = 0.0, rate = 0.0;  // as forces [N, N/s]
   };
@@ -80,7 +81,7 @@ std::vector<double> error_times(const Mechanism& mechanism, const IdealMotion& c
       laws.push_back(e);
   if (laws.empty()) return times;
   const double duration = mechanism.duration();
-  const int looks = looks_along(duration);
+  const int looks = looks_along(duration, kMostAtErrors);
   std::vector<TimeValue> drives(static_cast<std::size_t>(mechanism.joints()));
   std::vector<Course> courses(laws.size());
   for (int i = 0; i <= looks; ++i) {
@@ -96,7 +97,7 @@ std::vector<double> error_times(const Mechanism& mechanism, const IdealMotion& c
 }
 
 double least_error_time(const Mechanism& mechanism, double time) {
-  return std::max(time, mechanism.duration() / looks_along(mechanism.duration()));
+  return std::max(time, mechanism.duration() / looks_along(mechanism.duration(), kMostAtErrors));
 }
 
 double error_time(const Mechanism& mechanism, const IdealMotion& commanded, const std::vector<bool>& wanted) {

@@ -17,7 +17,8 @@ double load_time(const Mechanism& mechanism);
 // The same of the laws of drives' errors, one by one, along a commanded motion; infinite of those that are not `wanted` or do not change.
 std::vector<double> error_times(const Mechanism& mechanism, const IdealMotion& commanded,
                                 const std::vector<bool>& wanted);
-// Of such a time, or the instants' distance that were looked at, where that is longer: what grids and steps answer to.
+// Of such a time, or the instants' distance that were looked at, where that is longer: what grids and steps answer to. These are 16,384 at most:
+// grids have no more cells.
 double least_error_time(const Mechanism& mechanism, double time);
 // The shortest of them, so bounded.
 double error_time(const Mechanism& mechanism, const IdealMotion& commanded, const std::vector<bool>& wanted);

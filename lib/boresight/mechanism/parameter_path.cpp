@@ -129,6 +129,47 @@ bool matches(const std::string& pattern, const std::string& path) {
           (!path.ends_with(".contact" + tail) && !path.ends_with(".friction" + tail)));
 }
 
+// "radial, axial, contact.restitution ..., friction.coefficient ...": of names in order, the first of those that begin alike.
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  std::vector<std::string> seen;
+  for (const std::string& name : names) {
+    const std::size_t dot = name.find('.');
+    const std::string first = name.substr(0, dot);
+    if (std::find(seen.begin(), seen.end(), first) != seen.end()) continue;
+    seen.push_back(first);
+    text += (text.empty() ? "" : ", ") + name + (dot == std::string::npos ? "" : " ...");
+  }
+  return text;
+}
+
+// What a path that names nothing may be instead, and the one that it may be a slip of. Not all that a file holds varies within a study:
+// where joints stand, which law is in force.
+std::pair<std::string, std::string> what_there_is(const std::vector<Entry>& entries, const std::string& path,
+                                                  const std::string& mechanism) {
+  const std::string of_all = "; anything else in the file has one value for a whole study, which --set changes";
+  std::vector<std::string> names;
+  for (const Entry& e : entries) names.push_back(e.path);
+  // Of the longest beginning that some have: "clearance.F1.", not "clearance." alone.
+  for (std::size_t dot = path.rfind('.'); dot != std::string::npos && path.find('.') < dot;
+       dot = path.rfind('.', dot - 1)) {
+    const std::string rest = path.substr(dot + 1);
+    std::vector<std::string> own;
+    std::string nearest;
+    std::size_t least = std::max<std::size_t>(1, rest.size() / 3) + 1;  // further off it is no slip
+    for (const std::string& name : names) {
+      if (!name.starts_with(path.substr(0, dot + 1))) continue;
+      own.push_back(name.substr(dot + 1));
+      if (const std::size_t distance = edit_distance(rest, own.back()); distance < least) {
+        least = distance;
+        nearest = name;
+      }
+    }
+    if (!own.empty()) return {"of " + path.substr(0, dot) + " one of " + listed(own) + of_all, nearest};
+  }
+  return {"a parameter path of " + mechanism + ": " + listed(names) + of_all, nearest_name(path, names)};
+}
+
 }  // namespace
 
 ParameterPath::ParameterPath(const MechanismDescription& mechanism, const std::string& path, const Origin& origin)
@@ -142,10 +183,8 @@ ParameterPath::ParameterPath(const MechanismDescription& mechanism, const std::s
     numbers_.insert(numbers_.end(), e.numbers.begin(), e.numbers.end());
   }
   if (!numbers_.empty()) return;
-  std::vector<std::string> names;
-  for (const Entry& e : entries) names.push_back(e.path);
-  throw InputError(origin, path, "no such parameter", "a parameter path of " + mechanism.name,
-                   nearest_name(path, names));
+  const auto [expected, nearest] = what_there_is(entries, path, mechanism.name);
+  throw InputError(origin, path, "no number that studies vary", expected, nearest);
 }
 
 double ParameterPath::get(const Parameters& parameters) const {

@@ -72,6 +72,8 @@ struct Frame {
 
 struct RunCost {
   std::int64_t steps = 0, rejected_steps = 0, evaluations = 0;
+  std::int64_t shared_evaluations =
+      0;  // of these, what further runs of the same rung are spared: it was found for them too
   double cpu_seconds = 0.0, wall_seconds = 0.0;
 };
 

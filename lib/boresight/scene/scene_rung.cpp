@@ -234,6 +234,7 @@ RunResult SceneRung::run(const Parameters& parameters, const RunOptions& options
     result.error.basis += (result.error.basis.empty() ? "" : "; ") + std::string(kBasisOfErrors);
   }
   result.warnings.insert(result.warnings.begin(), prepared->held().begin(), prepared->held().end());
+  if (const std::string doubt = doubt_of(prepared->ideal()); !doubt.empty()) result.warnings.push_back(doubt);
   if (prepared->scene().tips()) result.warnings.push_back(tipping_sentence(*mechanism_, prepared->scene().layout()));
   result.rung = name();
   result.cost.cpu_seconds = thread_cpu_seconds() - cpu;

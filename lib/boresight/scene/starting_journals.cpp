@@ -1,5 +1,6 @@
 #include "boresight/scene/starting_journals.hpp"
 
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/scene/clearance_scene.hpp"
 #include "boresight/scene/offset_dynamics.hpp"
@@ -14,8 +15,11 @@ StartingJournals starting_journals(const Mechanism& mechanism, const Parameters&
   for (const ClearanceDescription& c : m.clearances)
     start.journals.push_back({m.joints[c.joint].name, Vec3::Zero(), Vec3::Zero()});
   if (m.journals == JournalStart::centred || m.clearances.empty()) return start;
+  // No other than the drawn ones without errors. Neither is owned: they outlive this.
+  const BuiltMotion built =
+      built_motion({std::shared_ptr<void>(), &mechanism}, {std::shared_ptr<void>(), &ideal}, parameters);
   try {
-    const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);
+    const ClearanceScene::Start scene = ClearanceScene::at_start(*built.mechanism, *built.motion, parameters);
     start.remark = tipping_sentence(mechanism, scene.layout);
     const VecX state =
         start_coordinates(mechanism, scene.layout, scene.numbers, joint_plays(m, parameters), start.warning);

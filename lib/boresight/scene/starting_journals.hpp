@@ -19,6 +19,8 @@ struct StartingJournals {
   std::string remark;             // that loads tip them over (tipping.hpp)
 };
 
+// Of the mechanism as these parameters' standing errors build it. ideal: the motion of the drawn one, which its drives are told to make.
+// Throws ComputationError where the built mechanism's joints do not close.
 StartingJournals starting_journals(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal);
 
 }  // namespace boresight

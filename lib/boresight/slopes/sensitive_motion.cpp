@@ -46,6 +46,7 @@ IntegrationSummary follow_by(M method, S& system, const MotionRequest& request, 
   system.start_located(request.start, Y);
   const IntegrationSummary summary =
       integrator.run(system, request.start, request.end, Y, options, [&](const auto& step) {
+        if (request.reached) request.reached(step.end());
         for (; k < request.times.size() && request.times[k] <= step.end(); ++k) {
           step.at(request.times[k], inside);
           keep(k, inside);

@@ -32,6 +32,7 @@
 // that factor.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -74,6 +75,8 @@ struct MotionRequest {
   long most_steps = 0;                                            // attempts of steps; 0: any that one run may take
   // Steps that no stiff or damped contact keeps short (RODAS4), each as dear as some of the explicit ones: implicit_steps_pay().
   bool implicit = false;
+  std::function<void(double)> reached =
+      {};  // told the time at the end of every step [s]; what it throws ends the motion
 };
 
 // As the perturbation rung's own: no turn of the mechanism and no change of a load is stepped over.

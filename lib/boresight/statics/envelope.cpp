@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "boresight/mechanism/error.hpp"
 #include "boresight/pointing/peaks.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/scene/scene_rung.hpp"
@@ -31,6 +32,10 @@ class Envelope final : public SceneRung {
  private:
   RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
+    if (prepared.scene().coordinates().leftover() > 0)
+      throw ComputationError(
+          "the gaps bound what deviates only where every freedom of the ideal mechanism is driven: one that nothing "
+          "drives departs from the ideal motion by what no gap limits; use perturbation");
     const ReactionTable reactions(mechanism(), prepared, standing, parameters, options.share_of_longest_step);
     const std::vector<JointPlay>& joints = reactions.joints();
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());

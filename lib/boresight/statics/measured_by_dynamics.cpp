@@ -13,6 +13,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/perturbation/perturbation.hpp"
 #include "boresight/play/play_words.hpp"
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 
 namespace boresight {
@@ -148,6 +149,7 @@ struct Measured {
       {};             // what the dynamic rung states for its own model, relative: both are linear in the offsets
   double bent = 0.0;  // the largest of these, of what is more than next to nothing
   bool keeps = true;  // false: its caller wanted it to stop
+  std::int64_t evaluations = 0;  // of the dynamic rung, for it
 };
 
 class MeasuredByDynamics final : public Rung {
@@ -181,6 +183,7 @@ class MeasuredByDynamics final : public Rung {
     result.cost.cpu_seconds += cost.cpu_seconds;
     result.cost.wall_seconds += cost.wall_seconds;
     result.cost.evaluations += cost.evaluations;
+    result.cost.shared_evaluations += cost.shared_evaluations;
     if (bounds_ && measured.exceeded > kExceeds) {
       char text[200];
       if (std::isinf(measured.exceeded))
@@ -189,16 +192,14 @@ class MeasuredByDynamics final : public Rung {
       else
         std::snprintf(text, sizeof text,
                       "impacts exceed the bound, which is one of continuous contact: the perturbation rung's "
-                      "largest position error is %.2g %% above it",
-                      100.0 * measured.exceeded);
+                      "largest position error is %s above it",
+                      relative_text(measured.exceeded, 2, "the bound").c_str());
       result.warnings.push_back(text);
     }
     if (bounds_ && measured.bent > kBent) {
-      char text[80];
-      std::snprintf(text, sizeof text, "' offsets, and the pose is not: errors may exceed it by %.2g %%",
-                    100.0 * measured.bent);
       result.warnings.push_back("the bound is linear in the " + parts_in_play(mechanism_->description()).inserts +
-                                text);
+                                "' offsets, and the pose is not: errors may exceed it by " +
+                                relative_text(measured.bent, 2, "the bound"));
     }
     return result;
   }
@@ -211,9 +212,14 @@ class MeasuredByDynamics final : public Rung {
     std::vector<double> key = numbers_of(at);
     key.insert(key.end(), {options.start, static_cast<double>(options.model_look)});
     // What samples share is measured once; errors of its own nobody shares, and others need not wait.
-    const bool own = std::any_of(at.error.begin(), at.error.end(), [](double error) { return error != 0.0; });
+    const std::vector<double> none(at.error.size(), 0.0);
+    const bool own = at.error != none && at.error != mechanism_->parameters().error;
     std::unique_lock lock(mutex_);
-    if (const auto known = measured_.find(key); known != measured_.end()) return known->second;
+    if (const auto known = measured_.find(key); known != measured_.end()) {
+      // Evaluations are those of a rung that has not met the sample, so that what is planned by them is the same however often it ran.
+      if (own) cost.evaluations = known->second.evaluations;
+      return known->second;
+    }
     RunOptions plain;
     plain.start = options.start;
     plain.sample_spacing = 0.0;
@@ -227,7 +233,11 @@ class MeasuredByDynamics final : public Rung {
       measured = not_measured(std::string("near this sample ") + failure.what());
     }
     if (own) lock.lock();
-    if (measured.keeps && measured_.size() < kMostKept) measured_.emplace(std::move(key), measured);
+    if (measured.keeps && measured_.size() < kMostKept) {
+      measured.evaluations = cost.evaluations;
+      measured_.emplace(std::move(key), measured);
+      if (!own) cost.shared_evaluations = cost.evaluations;
+    }
     return measured;
   }
 

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "boresight/io/expression.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/budget/contributor_size.hpp"
 
 namespace boresight {
 namespace budget_plan_test {
@@ -305,6 +307,51 @@ TEST_F(BudgetPlanTest, ColumnsBelongToTheAxesInTheOrderInWhichTheseAreNamed) {
   EXPECT_NEAR(turned.measured->record().value[0][1], -8.0 * arcsec_, 1e-18);
   EXPECT_THAT(fault(text(R"(["x", "x"])")), HasSubstr("each axis once"));
   std::filesystem::remove(file);
+}
+
+// Their squares, which every interpretation takes, are no numbers.
+TEST_F(BudgetPlanTest, ErrorsOfASizeThatNothingHasAreRefusedWhereTheyAreGiven) {
+  const std::string file = testing::TempDir() + "boresight_wild_floor.csv";
+  std::ofstream(file) << "t,a,b\n0,1,1e300\n10,-1,-1e300\n";
+  const auto measured = [&](const std::string& column, const std::string& more = "") {
+    return "measured = { file = \"" + file + "\", time = \"t\", columns = [\"" + column +
+           "\"], unit = \"rad\", ends = \"held\"" + more + " }\n";
+  };
+  const std::string gain = "through = [{ ratio = { numerator = [1e300], denominator = [1.0, 1.0] } }]\n";
+  const auto of = [](const std::string& text) {
+    return "[[budget.contributor]]\nname = \"wild\"\naxes = [\"x\"]\n" + text;
+  };
+  for (const auto& [key, text] : std::vector<std::pair<std::string, std::string>>{
+           {"value", "class = \"bias\"\nvalue = \"1e300 rad\"\n"},
+           {"distribution", "class = \"bias\"\ndistribution = { normal = { mean = \"0 rad\", sd = \"1e300 rad\" } }\n"},
+           {"value", "class = \"random\"\nvalue = \"1e160 rad\"\n"},
+           {"value", "class = \"random\"\nvalue = \"1 rad\"\ncorrelation_time = \"1 ms\"\n" + gain},
+           {"value", "class = \"periodic\"\nvalue = \"1e300 rad\"\nperiod = \"0.1 s\"\n"},
+           {"value", "class = \"drift\"\nvalue = \"1e300 rad/s\"\n"},
+           {"spectrum", "spectrum = { white = \"1e300 rad^2/Hz\", upper = \"100 Hz\" }\n"},
+           {"measured", measured("b")},
+           {"measured", measured("a") + "factor = { uniform = { min = 0.0, max = 1e300 } }\n"},
+           {"measured", measured("a", ", of = \"rad\"") + gain}})
+    EXPECT_THAT(fault(of(text)), AllOf(HasSubstr("budget.contributor.wild." + key + ": found errors"),
+                                       HasSubstr("none above 1e+09 rad")))
+        << text;
+  EXPECT_EQ(fault(of(measured("a"))), "no fault");
+  EXPECT_EQ(fault(of("class = \"drift\"\nvalue = \"1 deg/s\"\n")), "no fault");
+  std::filesystem::remove(file);
+}
+
+TEST(ContributorSize, OfAStandingErrorIsThatOfItsCourseAndItsValue) {
+  Contributor c;
+  c.of_error = ErrorCourse{};
+  c.of_error->si_unit = "K";
+  c.of_error->course = parse_expression("5*t", {});
+  c.of_error->factor = make_uniform(-2.0, 1.0);
+  c.of_error->value = make_discrete({-3.0}, {1.0});
+  Windows windows;
+  windows.start = 1.0;
+  EXPECT_NEAR(largest_size(c, windows, 2.0, 10), 2.0 * 15.0 + 3.0, 1e-12);
+  c.of_error->value = make_discrete({1e300}, {1.0});
+  EXPECT_GT(largest_size(c, windows, 2.0, 10), kLargestExternalError);
 }
 
 // A second window that would lie in two observations wherever the first one is, is no index.

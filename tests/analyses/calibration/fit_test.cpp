@@ -107,14 +107,14 @@ TEST(ProfileLikelihood, OfASmoothLossIsTheIntervalByCurvatureAndEndsAtABound) {
   const std::vector<bool> fixed = {false};
   const Inference inference = infer(problem, found, 0.95, fixed, 1);
   FitResult lower = found;
-  const std::vector<Profile> whole = profile_likelihood(problem, found, inference, fixed, 0.95, 1, lower);
+  const std::vector<Profile> whole = profile_likelihood(problem, found, inference, fixed, 1, lower);
   ASSERT_EQ(whole.size(), 1u);
   const ParameterEstimate& e = inference.parameters[0];
   EXPECT_NEAR(whole[0].low, e.low, 0.2 * (e.value - e.low));
   EXPECT_NEAR(whole[0].high, e.high, 0.2 * (e.high - e.value));
   // A bound half a standard error above what was found: the profile is tried there once.
   problem.parameters[0].upper = e.value + 0.5 * e.standard_error;
-  const std::vector<Profile> bounded = profile_likelihood(problem, found, inference, fixed, 0.95, 1, lower);
+  const std::vector<Profile> bounded = profile_likelihood(problem, found, inference, fixed, 1, lower);
   EXPECT_TRUE(std::isnan(bounded[0].high));
   EXPECT_NEAR(bounded[0].value.back(), problem.parameters[0].upper, 1e-9 * e.value);
   EXPECT_TRUE(std::is_sorted(bounded[0].value.begin(), bounded[0].value.end(), std::less_equal<>()))

@@ -48,6 +48,22 @@ TEST_F(MeasuredDataTest, AreReadInTheUnitOfEachColumn) {
   EXPECT_EQ(data.line, (std::vector<int>{3, 5}));
 }
 
+TEST_F(MeasuredDataTest, ThatDifferByTheLastBitAreOtherData) {
+  const MeasuredData data = read("t [s], dx [um], rz [urad]\n0, 3.5, \n0.001, 2, 4\n");
+  const std::string text = exact_text_of(data);
+  EXPECT_EQ(exact_text_of(read("# again\nt [s]; dx [um]; rz [urad]\n0; 3,50; nan\n0,0010; 2,0; 4\n")), text);
+  MeasuredData other = data;
+  other.value(1, 0) = std::nextafter(data.value(1, 0), 1.0);
+  EXPECT_NE(exact_text_of(other), text);
+  other = data;
+  other.time[1] = std::nextafter(data.time[1], 1.0);
+  EXPECT_NE(exact_text_of(other), text);
+  other = data;
+  other.channels[1] = 3;
+  EXPECT_NE(exact_text_of(other), text);
+  EXPECT_NE(exact_text_of(read("t [s], dx [um], rz [urad]\n0, 3.5, \n0.001, 2.00004, 4\n")), text);
+}
+
 TEST_F(MeasuredDataTest, WithoutAUnitOrTwiceTheSameColumnAreRefused) {
   EXPECT_THROW(read("t, dx [um]\n0, 1\n"), InputError);
   EXPECT_THROW(read("t [s], dx [um\n0, 1\n"), InputError);

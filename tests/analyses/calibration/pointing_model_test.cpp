@@ -217,6 +217,38 @@ TEST(PointingModel, APriorIsWhatItWasToldWhateverTheNoise) {
   for (const double error : errors) EXPECT_NEAR(error / errors[1], 1.0, 0.02);
 }
 
+// What was known before counts beside the data by the noise that was told, and errors are those of that fit: also where the noise is another.
+TEST(PointingModel, IntervalsWithPriorsHoldWhateverTheNoiseWasToldToBe) {
+  constexpr int kNights = 100, kStars = 12;
+  const Bench bench(gimbal(), {"error.IA", "error.IE"}, {6, 7, 8}, kStars);
+  for (const double told : {0.1, 1.0, 10.0}) {
+    std::mt19937_64 engine(11);
+    std::normal_distribution<double> normal;
+    Coverage coverage;
+    double off = 0.0, stated = 0.0;
+    for (int night = 0; night < kNights; ++night) {
+      CalibrationProblem problem =
+          bench.problem(std::vector<double>(3, 1.0 * kArcsec), static_cast<unsigned>(5000 + night));
+      problem.loss.kind =
+          Loss::none;  // of a noise that is told ten times too small Huber's leaves next to nothing inside
+      for (FittedParameter& p : problem.parameters) {
+        p.has_prior = true;
+        p.size = 0.5 * kArcsec;
+        p.start = bench.truth(p.path) + p.size * normal(engine);
+      }
+      CalibrationOptions options;
+      options.noise = VecX::Constant(static_cast<Eigen::Index>(channel_names().size()), told * kArcsec);
+      for (const ParameterEstimate& e : calibrate(problem, options).inference.parameters) {
+        coverage.add(bench.truth(e.name), e.low, e.high);
+        off += std::pow(e.value - bench.truth(e.name), 2);
+        stated += e.standard_error * e.standard_error;
+      }
+    }
+    EXPECT_NEAR(coverage.share(), 0.95, coverage.allowed()) << told;
+    EXPECT_NEAR(std::sqrt(stated / off), 1.0, 0.1) << told;
+  }
+}
+
 // A fit through all its readings leaves no residual: the noise is what it was told to be, or unknown.
 TEST(PointingModel, AsManyReadingsAsTermsTellNothingOfTheirNoise) {
   const Bench bench(gimbal(), {"error.IA", "error.IE"}, {6, 8}, 1);

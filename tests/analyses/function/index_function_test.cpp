@@ -4,13 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 
 namespace boresight {
 namespace index_function_test {
@@ -97,6 +100,46 @@ TEST(IndexFunction, SaysWhyARungHasNoSlopes) {
 TEST(IndexFunction, StopsWhereItIsTold) {
   const std::atomic<bool> stop{true};
   EXPECT_NE(function_of({kRadial}, "multibody").at(std::vector{1e-4}, stop).status, Outcome::Status::done);
+}
+
+// A four-bar whose journal stays in contact: the slopes of a motion of so many seconds are followed for about as long as that.
+TEST(IndexFunction, StopsItsSlopesWhereItIsTold) {
+  const auto mechanism = std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml", {{"motion.duration", "4 s"}}));
+  const IndexFunction f(mechanism, inputs_named(*mechanism, {"clearance.D.radial"}),
+                        {.index = {"position_error", "rms"}, .rung = "perturbation"});
+  const std::atomic<bool> set{true};
+  EXPECT_THROW(f.slopes_at(std::vector{1e-4}, set), Interrupted);
+
+  // In the midst of them: the motion's derivatives are followed last.
+  static std::atomic<bool> stop, reached;
+  stop = reached = false;
+  watch_work([](const char* what, double share) {
+    reached = reached || (std::string(what).find("derivatives") != std::string::npos && share > 0.5);
+    stop = stop || reached;
+    return true;
+  });
+  EXPECT_THROW(f.slopes_at(std::vector{1e-4}, stop), Interrupted);
+  watch_work(nullptr);
+  EXPECT_TRUE(reached);
+}
+
+// Another scene for every payload: while it is built, too.
+TEST(IndexFunction, StopsWhereASceneIsBuiltForIt) {
+  const IndexFunction f = function_of({"payload.mass"}, "envelope");
+  static std::atomic<bool> stop;
+  static std::atomic<int> looks;
+  stop = false;
+  looks = 0;
+  watch_work([](const char*, double) {
+    stop = true;
+    ++looks;
+    return true;
+  });
+  EXPECT_EQ(f.at(std::vector{10.0}, stop).status, Outcome::Status::not_reached);
+  watch_work(nullptr);
+  EXPECT_EQ(looks, 1);
+  EXPECT_EQ(f.at(std::vector{10.0}).status, Outcome::Status::done);  // what was begun is no trap for the next one
 }
 
 }  // namespace index_function_test

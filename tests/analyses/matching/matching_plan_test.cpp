@@ -48,6 +48,27 @@ TEST(MatchingPlan, VariablesStartAnywhereBetweenTheirEndsTheseIncluded) {
   EXPECT_THAT(fault("", "0.51 mm"), testing::HasSubstr("values between from and to"));
 }
 
+TEST(MatchingPlan, NamesTheCornerOfItsBoxThatNoMechanismMayBe) {
+  const std::string file = BORESIGHT_EXAMPLES "/3-rrcpr/3-rrcpr.toml";
+  const MechanismDescription rrcpr = read_mechanism(file);
+  Document document = Document::from_text(
+      "[match]\nminimise = \"index\"\n"
+      "[[match.variable]]\nparameter = \"clearance.F1.cap_radius\"\nfrom = \"12 mm\"\nto = \"16 mm\"\n"
+      "[[match.variable]]\nparameter = \"clearance.F1.journal_radius\"\nfrom = \"8 mm\"\nto = \"13 mm\"\n",
+      "study.toml");
+  Cursor root(document);
+  const AcceptsSettings accepts = [&](const std::vector<Setting>& settings) { read_mechanism(file, settings); };
+  try {
+    read_matching_plan(
+        root, Study{}, rrcpr, [&](const Setting& one) { accepts({one}); }, accepts);
+    FAIL() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("clearance.F1.cap_radius: found \"12 mm\" at the point"),
+                               testing::HasSubstr("clearance.F1.journal_radius = 13 mm")));
+  }
+}
+
 TEST(MatchingPlan, KeepsTheUnitsThatAreWritten) {
   EXPECT_EQ(read("").variables[0].unit, "mm");
   Document document = Document::from_text(

@@ -117,6 +117,25 @@ TEST_F(KeptResultsTest, AStudyGoesOnWithTheRungThatItWasBegunWith) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
+TEST_F(KeptResultsTest, AStudyDoesNotGoOnWithWhatAnotherVersionKept) {
+  const auto of = [&](const std::string& version) {
+    return StudyRun(mechanism_, {.identity = "one", .version = version, .folder = folder_});
+  };
+  const auto choose = [] { return RungChoice{.name = "perturbation", .why = "asked"}; };
+  of("0.9.0").open_samples("", {"x"});
+  of("0.9.0").go_on(choose).results->keep(7, {1.0});
+  of("0.9.0").open_evaluations("evaluations.db", {"x"}, "perturbation", 1e-5, "a model");
+  const StudyRun later = of("1.0.0");
+  const auto refused = testing::ThrowsMessage<StoreRefused>(
+      testing::AllOf(testing::HasSubstr("version 0.9.0"), testing::HasSubstr("give another --out, or remove it")));
+  EXPECT_THAT([&] { later.open_samples("", {"x"}); }, refused);
+  EXPECT_THAT([&] { later.go_on(choose); }, refused);
+  for (const char* model : {"a model", "another model"})
+    EXPECT_THAT([&] { later.open_evaluations("evaluations.db", {"x"}, "perturbation", 1e-5, model); }, refused);
+  EXPECT_THAT([&] { later.rung_of_designs({}, "evaluations.db"); }, refused);
+  EXPECT_EQ(of("0.9.0").go_on(choose).results->size(), 1u) << "it is left as it was";
+}
+
 TEST_F(KeptResultsTest, AStoreThatWasCutShortAsItWasMadeBlocksNobody) {
   std::ofstream(folder_ / kUnfinished).close();
   const StudyRun run = study("one");

@@ -101,6 +101,110 @@ TEST(SampleStore, AnotherStudysSamplesAreRefused) {
   EXPECT_THROW(SampleStore(folder.path() / "text.db"), StoreRefused);
 }
 
+std::string refusal_of(const std::filesystem::path& file, const std::map<std::string, std::string>& facts) {
+  try {
+    const SampleStore store(file, facts, {"x1", "x2"});
+  } catch (const StoreRefused& refusal) {
+    return refusal.what();
+  }
+  return "taken";
+}
+
+TEST(SampleStore, OfAnotherVersionIsRefusedInALineThatSaysWhatToDo) {
+  const Folder folder("version");
+  const auto with = [](const std::string& version) {
+    return std::map<std::string, std::string>{{"study", "sum"}, {"version", version}};
+  };
+  const std::filesystem::path file = folder.path() / "samples.db";
+  SampleStore(file, with("0.9.0"), {"x1", "x2"}).add(record(1));
+  EXPECT_EQ(refusal_of(file, with("1.0.0")),
+            file.string() +
+                " holds results of version 0.9.0, and this is 1.0.0: results of two versions are not mixed; "
+                "give another --out, or remove it");
+  EXPECT_THAT(refusal_of(file, {{"study", "product"}, {"version", "1.0.0"}}), testing::HasSubstr("another study"));
+  EXPECT_EQ(refusal_of(file, with("0.9.0")), "taken");
+  EXPECT_EQ(refusal_of(file, {{"study", "sum"}}), "taken") << "who asks for no version";
+  EXPECT_EQ(SampleStore(file).count(), 1u) << "who only reads";
+
+  // As versions before wrote them.
+  const std::filesystem::path silent = folder.path() / "silent.db";
+  SampleStore(silent, {{"study", "sum"}}, {"x1", "x2"}).add(record(1));
+  EXPECT_THAT(refusal_of(silent, with("1.0.0")),
+              testing::HasSubstr("results of an earlier version, and this is 1.0.0"));
+
+  // A rank's own.
+  SampleStore store(file, with("0.9.0"), {"x1", "x2"});
+  EXPECT_THROW(store.merge(silent), StoreRefused);
+
+  // A damaged one.
+  const std::filesystem::path damaged = folder.path() / "damaged.db";
+  {
+    SampleStore many(damaged, with("0.9.0"), {"x1", "x2"});
+    for (std::uint64_t k = 0; k < 2000; ++k) many.add(record(k));
+  }
+  std::fstream(damaged, std::ios::binary | std::ios::in | std::ios::out)
+      .seekp(static_cast<std::streamoff>(std::filesystem::file_size(damaged) / 2))
+      .write("xxxxxxxx", 8);
+  EXPECT_THAT(refusal_of(damaged, with("1.0.0")), testing::HasSubstr("results of version 0.9.0, and this is 1.0.0"));
+}
+
+// Copies what is on the disk before every commit of whatever has the store open: what a kill between two leaves.
+class EveryCommit {
+ public:
+  explicit EveryCommit(const Folder& folder) {
+    from = folder.path() / "samples.db";
+    copies = 0;
+    sqlite3_auto_extension(reinterpret_cast<void (*)()>(&watch));
+  }
+  ~EveryCommit() { sqlite3_reset_auto_extension(); }
+  static std::filesystem::path copy(int k) {
+    return from.parent_path() / ("commit-" + std::to_string(k)) / from.filename();
+  }
+  static int count() { return copies; }
+
+ private:
+  static int watch(sqlite3* db, char**, const void*) {
+    sqlite3_commit_hook(db, &before_commit, nullptr);
+    return SQLITE_OK;
+  }
+  static int before_commit(void*) {
+    const std::filesystem::path to = copy(copies++);
+    std::filesystem::create_directory(to.parent_path());
+    std::error_code none_yet;
+    for (const char* suffix : {"", "-wal"})
+      std::filesystem::copy_file(from.string() + suffix, to.string() + suffix, none_yet);
+    return 0;
+  }
+  static inline std::filesystem::path from;
+  static inline int copies = 0;
+};
+
+TEST(SampleStore, SaysOfItselfAllOrNothingWheneverItIsKilled) {
+  const Folder folder("notes");
+  {
+    const EveryCommit commits(folder);
+    auto store = open_sum_store(folder);
+    store->use_rung("sum", 1e-5);
+    store->add(record(1));
+    store->note("counted_cost", "1e-6");
+    store->note({{"mechanism", "a sum"}, {"unit", "m"}});
+    store->note("counted_cost", "2e-6");
+    store->use_rung("sum", 1e-6);
+    store->add(record(2));
+  }
+  ASSERT_GE(EveryCommit::count(), 6);
+  int noted = 0, with_sample = 0;
+  for (int k = 0; k < EveryCommit::count(); ++k) {
+    const SampleStore killed(EveryCommit::copy(k), {{"study", "sum"}}, {"x1", "x2"});
+    EXPECT_EQ(killed.damage(), "") << "before commit " << k;
+    EXPECT_EQ(killed.fact("mechanism").empty(), killed.fact("unit").empty()) << "before commit " << k;
+    noted += !killed.fact("counted_cost").empty();
+    with_sample += killed.count() == 1;
+  }
+  EXPECT_GE(noted, 3);
+  EXPECT_GE(with_sample, noted);
+}
+
 TEST(SampleStore, TwoRunsCannotHaveItOpenAtOnce) {
   const Folder folder("busy");
   auto store = open_sum_store(folder);

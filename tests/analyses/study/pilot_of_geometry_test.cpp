@@ -13,7 +13,8 @@
 namespace boresight {
 namespace pilot_of_geometry_test {
 
-std::shared_ptr<const Mechanism> hexapod(const std::vector<Setting>& settings = {}) {
+// A quarter of its motion: what its errors add up to shows in that as well.
+std::shared_ptr<const Mechanism> hexapod(const std::vector<Setting>& settings = {{"motion.duration", "0.5 s"}}) {
   return std::make_shared<const Mechanism>(
       read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/hexapod/hexapod.toml", settings));
 }

@@ -228,6 +228,12 @@ TEST(Pilot, SaysInWordsWhatItMeasured) {
   result.trials[1].accepted = false;
   conclude(result);
   EXPECT_EQ(result.why.rfind("none is shown to come within 1 % of multibody", 0), 0u) << result.why;
+  // Of an index that is next to nothing.
+  result.trials[1].error = 3e9;
+  result.trials[0].error = 4e9;
+  result.reference_error = 2e8;
+  conclude(result);
+  EXPECT_NE(result.why.find("good to over 10000 times the value itself only"), std::string::npos) << result.why;
 }
 
 TEST(Pilot, SaysWhatSingleMotionsScatterByWhereThatIsWhyNothingCanBeShown) {

@@ -92,5 +92,42 @@ TEST(Failures, TellTheReasonOfTheFirstSampleWhateverTheOrder) {
   EXPECT_EQ(failures.reason, "first");
 }
 
+// A plan that divides CPU time over rungs goes by what is counted, and a study that was killed goes on with the same plan.
+TEST(RungSampleModel, CountsTheSameForASampleWhateverItRanBefore) {
+  for (const bool scatters_errors : {false, true}) {
+    const auto mechanism =
+        scatters_errors
+            ? std::make_shared<const Mechanism>(read_mechanism(
+                  std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/tolerances.toml", {{"motion.duration", "50 ms"}}))
+            : scene();
+    const auto parameters_of = [&](std::span<const double> values) {
+      Parameters p = mechanism->parameters();
+      p.clearance[0].radial *= values[0];
+      if (scatters_errors) p.error[0] = 1e-6 * values[0];
+      return p;
+    };
+    const auto counted = [&](const RungSampleModel& model, double share) {
+      const std::vector<double> values = {share};
+      const Sample sample{0, values};
+      Outcome outcome;
+      const std::atomic<bool> stop{false};
+      model.evaluate({&sample, 1}, {&outcome, 1}, stop);
+      EXPECT_EQ(outcome.status, Outcome::Status::done) << outcome.message;
+      return outcome.evaluations;
+    };
+    for (const std::string rung : {"envelope", "quasistatic", "perturbation", "multibody"}) {
+      const auto fresh = [&] {
+        return RungSampleModel(rung, mechanism, parameters_of, {"position_error", "max"}, {}, false);
+      };
+      const RungSampleModel first = fresh(), later = fresh();
+      const double alone = counted(first, 1.01);
+      counted(later, 0.99);
+      EXPECT_EQ(counted(later, 1.01), alone) << rung;
+      EXPECT_EQ(counted(later, 1.01), alone) << rung << ", once more";
+      EXPECT_GT(alone, 0.0) << rung;
+    }
+  }
+}
+
 }  // namespace rung_sample_model_test
 }  // namespace boresight

@@ -19,9 +19,11 @@ inline std::shared_ptr<const Mechanism> short_mechanism() {
 inline SweepPlan plan_of(const std::string& sweep, const Mechanism& mechanism) {
   Document document = Document::from_text("[sweep]\n" + sweep, "study.toml");
   Cursor root(document);
-  return read_sweep_plan(root, mechanism.description(), [](const Setting& setting) {
-    const Mechanism tried(read_mechanism(kDefaultMechanism, {setting}));
-  });
+  const AcceptsSettings accepts = [](const std::vector<Setting>& settings) {
+    const Mechanism tried(read_mechanism(kDefaultMechanism, settings));
+  };
+  return read_sweep_plan(
+      root, mechanism.description(), [&](const Setting& setting) { accepts({setting}); }, accepts);
 }
 
 }  // namespace boresight

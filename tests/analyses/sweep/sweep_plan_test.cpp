@@ -96,6 +96,41 @@ TEST_F(SweepPlanTest, TakesNoValueThatAMechanismFileMayNotHold) {
               HasSubstr("study.toml:4"));
 }
 
+std::string axis(const std::string& parameter, const std::string& values) {
+  return "[[sweep.axis]]\nparameter = \"" + parameter + "\"\nvalues = [" + values + "]\n";
+}
+
+// Each value may stand in the file as it is: a cap of 16 mm, a bore of 10.1 mm.
+TEST_F(SweepPlanTest, NamesThePointWhoseValuesAreLegalEachButNotTogether) {
+  EXPECT_THAT(
+      fault(axis("clearance.F1.cap_radius", "\"12 mm\", \"16 mm\"") +
+            axis("clearance.F1.journal_radius", "\"8 mm\", \"13 mm\"") + axis("payload.mass", "\"0 kg\", \"1 kg\"")),
+      AllOf(HasSubstr("study.toml:4: clearance.F1.cap_radius: found \"12 mm\" at the point "
+                      "clearance.F1.cap_radius = 12 mm, clearance.F1.journal_radius = 13 mm"),
+            HasSubstr("expected more than journal_radius + radial")));
+  EXPECT_THAT(fault(axis("clearance.F1.friction.static_speed", "\"0.1 mm/s\", \"0.9 mm/s\"") +
+                    axis("clearance.F1.friction.dynamic_speed", "\"1 mm/s\", \"0.5 mm/s\"")),
+              AllOf(HasSubstr("static_speed = 0.9 mm/s, clearance.F1.friction.dynamic_speed = 0.5 mm/s"),
+                    HasSubstr("expected dynamic_speed above static_speed")));
+  EXPECT_THAT(fault("[[sweep.axis]]\nparameter = [\"clearance.F1.radial\", \"clearance.F1.journal_radius\"]\n"
+                    "values = [\"0.1 mm\"]\n"),
+              HasSubstr("less than journal_radius"));
+}
+
+TEST_F(SweepPlanTest, BlamesNoPointForAValueThatNoPointMayHave) {
+  const std::string found = fault(axis("clearance.F1.cap_radius", "\"12 mm\", \"16 mm\"") +
+                                  axis("clearance.F1.radial", "\"0.1 mm\", \"-1 mm\""));
+  EXPECT_THAT(found, AllOf(HasSubstr("study.toml:7"), HasSubstr("clearance.F1.radial"), HasSubstr("\"-1 mm\"")));
+  EXPECT_THAT(found, testing::Not(HasSubstr("at the point")));
+}
+
+// The file's own bore is 10.1 mm: a cap of 9 mm goes with the journals of this grid, if not with that of the file.
+TEST_F(SweepPlanTest, TakesAValueThatIsLegalAtEveryPointThoughNotBesideTheFilesOwn) {
+  const SweepPlan p = plan(axis("clearance.F1.cap_radius", "\"9 mm\", \"16 mm\"") +
+                           axis("clearance.F1.journal_radius", "\"5 mm\", \"8 mm\""));
+  EXPECT_EQ(p.points(), 4u);
+}
+
 TEST_F(SweepPlanTest, RefusesAGridBeyondReason) {
   EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"payload.mass\"\nfrom = \"0 kg\"\nto = \"1 kg\"\ncount = 1000\n"
                     "[[sweep.axis]]\nparameter = \"clearance.F1.radial\"\nfrom = \"1 um\"\nto = \"1 mm\"\ncount = "

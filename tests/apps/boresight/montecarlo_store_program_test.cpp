@@ -9,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include "boresight_analyses/runs/sample_store.hpp"
 #include "montecarlo_program.hpp"
 
 namespace boresight::app {
@@ -62,6 +63,25 @@ TEST_F(MonteCarloProgram, TheSameCommandGoesOnAndAnotherStudyIsLeftAlone) {
   EXPECT_THAT(again.err, AllOf(HasSubstr("another study"), HasSubstr("--out")));
   EXPECT_TRUE(is_one_line(again.err));
   EXPECT_EQ(call({"export", "nothing"}).status, 2);
+}
+
+TEST_F(MonteCarloProgram, SamplesOfAnotherVersionAreRefusedInALineAndLeftAsTheyAre) {
+  const std::string table = csv_of("study.toml", "out");
+  const auto version = [&] { return SampleStore(folder_ / "out/samples.db").fact("version"); };
+  const std::string own = version();
+  EXPECT_EQ(json("out/summary.json")["version"], own);
+  const auto parameters = [&] { return SampleStore(folder_ / "out/samples.db").parameters(); }();
+  SampleStore(folder_ / "out/samples.db", {}, parameters).note("version", "0.9.0");
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--resume"}, {"--resume", "--from", (folder_ / "out").string()}}) {
+    const Ended again = call(quick("study.toml", more.size() > 1 ? "copy" : "out", more));
+    EXPECT_EQ(again.status, 2);
+    EXPECT_THAT(again.err, HasSubstr("holds results of version 0.9.0, and this is " + own));
+    EXPECT_TRUE(is_one_line(again.err)) << again.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "copy/samples.db"));
+  EXPECT_EQ(version(), "0.9.0");
+  EXPECT_EQ(samples_of("out"), table) << "who only reads it may";
 }
 
 TEST_F(MonteCarloProgram, InterruptedWhileItsStepsAreMeasuredItHasItsSamplesAndTheirTable) {

@@ -43,6 +43,9 @@ TEST(Readable, StaysInTheUnitThatTheUserWrote) {
 TEST(Readable, ArcsecondsAndShares) {
   EXPECT_EQ(readable_arcsec(2.396e-3), "494 arcsec");
   EXPECT_EQ(readable_share(0.9786), "97.9 %");
+  EXPECT_EQ(readable_error(0.9786), "97.9 %");
+  EXPECT_EQ(readable_error(35.2), "35 times the value itself");
+  EXPECT_EQ(readable_error(1e9), "over 10000 times the value itself");
 }
 
 }  // namespace readable_test

@@ -57,6 +57,19 @@ TEST(StepsMislead, ButNotAboutTheRoundingOfAMotionWithoutError) {
   // Nor is it where what smaller steps give is large.
   EXPECT_THAT(steps_mislead(off_by(1e-5, 0.0), indices(1e-14, 0.0), kMaximum, 1.0), HasSubstr("not followed"));
 }
+// Nine figures of per cent say nothing that one word does not.
+TEST(StepErrors, ManyTimesWhatIsFoundAreNoPercentages) {
+  for (const double times : {1e3, 1e6, 1e9}) {
+    const double index = 1e-2 / times;
+    EXPECT_THAT(steps_mislead(off_by(1e-2, 0.0), indices(index, 0.0), kMaximum, 1.0),
+                AllOf(HasSubstr("times what is found: "), Not(HasSubstr("%"))));
+    EXPECT_THAT(step_error_sentence(off_by(1e-2, 0.0), indices(index, 0.0), kMaximum, 1.0),
+                AllOf(HasSubstr("times the value itself of what smaller steps give"), Not(HasSubstr("%"))));
+    EXPECT_THAT(model_error_said(left_out(times, indices(1e-4, 0.0)), kMaximum, 1.0).sentence,
+                AllOf(HasSubstr("times what it finds"), Not(HasSubstr("e+"))));
+  }
+}
+
 TEST(StepErrorSentence, CallsRoundingByItsName) {
   EXPECT_THAT(step_error_sentence(off_by(3e-13, 0.0), indices(1e-14, 0.0), kMaximum, 1.0),
               HasSubstr("within rounding of what smaller steps give"));

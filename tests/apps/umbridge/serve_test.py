@@ -139,6 +139,15 @@ class Serve(unittest.TestCase):
             self.assertEqual((status, answer["error"]["type"]), (503, "Stopped"))
             self.assertLess(time.monotonic() - start, 30.0)
 
+    def test_stops_slopes_at_the_limit(self):
+        with Server(FOUR_BAR, "--input", "clearance.D.radial", "--index", "position_error.rms", "--rung", "perturbation",
+                    "--set", "motion.duration=4s", "--limit", "20 ms", "--jobs", "1") as server:
+            request = {"name": "index", "input": [[1e-4]], "outWrt": 0, "inWrt": 0}
+            for endpoint, by in (("/Gradient", {"sens": [2.0]}), ("/ApplyJacobian", {"vec": [3.0]})):
+                status, answer, _ = server.ask(endpoint, {**request, **by})
+                self.assertEqual((status, answer["error"]["type"]), (503, "Stopped"), (endpoint, answer))
+                self.assertIn("longer than the server allows", answer["error"]["message"])
+
     def test_ends_on_a_signal_with_everybody_answered(self):
         with Server(MECHANISM, "--input", "payload.mass", "--rung", "multibody", "--set", "motion.duration=1000s",
                     "--step", "1us", "--jobs", "2") as server:

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "bearing_pair_scenes.hpp"
 #include "boresight/formulations/formulation.hpp"
@@ -93,6 +94,67 @@ TEST(IdealSimulation, KeepsTheEnergyOfStiffSprings) {
   };
   const double first = energy(0.0);
   for (int i = 1; i <= 50; ++i) EXPECT_NEAR(energy(0.01 * i) / first, 1.0, 1e-6) << i;
+}
+
+// Where memory holds no finer run, a looser one tells what the one that came to its end is wrong by.
+TEST(IdealSimulation, SaysWhatAMotionIsWrongByThatNoFinerRunConfirms) {
+  MechanismDescription d = scenes::flyball_governor(8e5, 4e7);
+  d.motion.duration = 0.02;
+  const auto mechanism = scenes::build(std::move(d));
+  const auto within = [&](long steps) {
+    return simulated_motion(*mechanism, mechanism->parameters(), {.explicit_steps = 1000, .implicit_steps = steps});
+  };
+  const IdealMotion best = within(200'000);
+  ASSERT_LE(best.error(), IdealMotion::kAccuracy);
+  // Ever fewer steps: the finest run that they allow is the last one.
+  long steps = best.knots() - 2;
+  for (int k = 0; k < 5; ++k) {
+    std::optional<IdealMotion> found;
+    try {
+      found.emplace(within(steps));
+    } catch (const ComputationError&) {  // one run at most, and nothing to compare it with
+      EXPECT_GT(k, 0);
+      return;
+    }
+    ASSERT_TRUE(std::isfinite(found->error())) << steps;
+    for (int b = 0; b < mechanism->bodies(); ++b)
+      EXPECT_LE((found->body(mechanism->duration(), b).p - best.body(mechanism->duration(), b).p).norm(),
+                (found->error() + best.error()) * mechanism->characteristic_length())
+          << steps << ' ' << found->error();
+    EXPECT_EQ(doubt_of(*found).empty(), found->error() <= IdealMotion::kAccuracy);
+    steps = found->knots() - 2;
+  }
+  FAIL() << "however few steps there are, the motion comes to its end";
+}
+
+// A double pendulum whose motion soon hangs on the last digit, beside a damper that asks for an implicit method.
+TEST(IdealSimulationLong, TellsARunsReaderThatItIsNotKnownAsWellAsItWasSought) {
+  MechanismDescription m;
+  m.name = "double pendulum and damped slug";
+  m.gravity = Vec3(0.0, 0.0, -9.81);
+  const int arm = scenes::add_body(m, "arm", 1.0, {0.1, 0.0, 0.0}, Vec3::Zero());
+  const int tip = scenes::add_body(m, "tip", 1.0, {0.2, 0.0, 0.0}, Vec3::Zero());
+  const int slug = scenes::add_body(m, "slug", 1.0, {0.5, 0.0, 0.0}, Vec3::Zero());
+  for (const int body : {arm, tip}) m.bodies[body].inertia = 1e-6 * Mat3::Identity();
+  for (const int body : {tip, slug}) m.bodies[body].boresight.reset();
+  scenes::add_joint(m, JointType::revolute, kGround, arm, Vec3::Zero(), Vec3::UnitY());
+  scenes::add_joint(m, JointType::revolute, arm, tip, {0.1, 0.0, 0.0}, Vec3::UnitY());
+  scenes::add_joint(m, JointType::prismatic, kGround, slug, {0.5, 0.0, 0.0}, Vec3::UnitZ());
+  SpringDescription damper;
+  damper.first = kGround;
+  damper.second = slug;
+  damper.first_point = {0.5, 0.0, 0.2};
+  damper.second_point = {0.5, 0.0, 0.0};
+  damper.parameters = {1e5, 2e4, 0.2};
+  m.springs.push_back(damper);
+  m.motion.duration = 5.0;
+  const auto mechanism = scenes::build(std::move(m));
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  const RunResult run = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
+  ASSERT_FALSE(run.warnings.empty());
+  EXPECT_NE(run.warnings.front().find("of the mechanism's size, not to 1e-09 as it was sought"), std::string::npos)
+      << run.warnings.front();
 }
 
 TEST(OwnStep, SeesSpringsAndDampersBesideTheContacts) {

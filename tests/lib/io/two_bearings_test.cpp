@@ -1,4 +1,6 @@
 // A [[clearance]] that stands for two bearings: what it becomes, how it is set, what is refused.
+#include <gmock/gmock.h>
+
 #include <algorithm>
 
 #include "boresight/mechanism/parameter_path.hpp"
@@ -121,6 +123,33 @@ TEST(BearingPair, HasAPathOfItsPreload) {
   EXPECT_NEAR(p.spring[1].pull(0.06, 0.0), -30.0, 1e-9);
   EXPECT_EQ(p.spring[0], nominal_parameters(m).spring[0]);
   EXPECT_THROW(ParameterPath(read(pair()), "clearance.R.preload"), InputError);
+}
+
+// Where the bearings stand is drawn once: a study varies numbers of the bearings, and the message says which.
+TEST(BearingPair, SaysWhatOfItAStudyVariesWhereItsSpanIsAskedFor) {
+  const auto m = read(pair());
+  const auto fault = [&](const std::string& path) -> std::string {
+    try {
+      ParameterPath(m, path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no fault";
+  };
+  const std::string span = fault("clearance.R.span");
+  EXPECT_THAT(span, testing::HasSubstr("of clearance.R one of radial, axial, "));
+  EXPECT_THAT(span, testing::HasSubstr("floating.radial ..."));
+  EXPECT_THAT(span, testing::HasSubstr("one value for a whole study, which --set changes"));
+  EXPECT_THAT(span, testing::Not(testing::HasSubstr("did you mean")));
+  EXPECT_THAT(fault("body.arm.inertia"), testing::HasSubstr("of body.arm one of mass, center_of_mass.x ..."));
+  EXPECT_THAT(fault("motion.duration"),
+              testing::HasSubstr("gravity.x ..., payload.mass ..., body.arm.mass ..., clearance.R.radial ..."));
+  // A slip is still told from what does not vary.
+  EXPECT_THAT(fault("clearance.R.radiall"), testing::HasSubstr("did you mean clearance.R.radial?"));
+  EXPECT_THAT(fault("clearance.R.floating.radal"), testing::HasSubstr("did you mean clearance.R.floating.radial?"));
+  EXPECT_THAT(fault("clearance.RR.radial"), testing::HasSubstr("did you mean clearance.R.radial?"));
+  const auto wider = read(pair(), {{"clearance.R.span", "70 mm"}});
+  EXPECT_NEAR((wider.joints[1].point - m.joints[1].point).norm(), 5e-3, 1e-12);
 }
 
 TEST(BearingPair, IsSetByThePathsOfItsBearings) {

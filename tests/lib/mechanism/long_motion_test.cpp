@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <thread>
 
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/ideal_motion.hpp"
@@ -135,6 +136,23 @@ TEST(LongWork, StopsWhereItsWatchWantsItTo) {
   EXPECT_THROW(IdealMotion::kinematic(mechanism), Interrupted);
   EXPECT_EQ(looks, 1000);
   watch_work(nullptr);
+}
+
+// Whoever is answered in one thread is not stopped by what stops another.
+TEST(LongWork, StopsWhereItsOwnThreadIsTold) {
+  const Mechanism mechanism = four_bar("2*pi*t", "20 s");
+  std::atomic<bool> stop{false}, other{true};
+  {
+    const StopOfThread heard(other);
+    EXPECT_THROW(IdealMotion::kinematic(mechanism), Interrupted);
+    const StopOfThread inner(stop);  // adds to it
+    EXPECT_THROW(IdealMotion::kinematic(mechanism), Interrupted);
+    std::jthread([&] { EXPECT_NO_THROW(IdealMotion::kinematic(mechanism)); }).join();
+  }
+  const StopOfThread heard(stop);
+  EXPECT_NO_THROW(IdealMotion::kinematic(mechanism));
+  stop = true;
+  EXPECT_THROW(IdealMotion::kinematic(mechanism), Interrupted);
 }
 
 // Beyond 16,384 rad an angle is known to 4e-12: what closes the mechanism is the turn that it is in.

@@ -1,6 +1,7 @@
 // Journals that start at rest: under constant loads nothing moves, on any rung, formulation or integrator.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "boresight/formulations/ideal_simulation.hpp"
@@ -124,6 +125,37 @@ TEST(StartingJournals, ThatDoNotTiltHaveNoSlopeAndCentredOnesNoOffset) {
     ASSERT_EQ(found.journals.size(), 1u);
     EXPECT_EQ(found.journals[0].slope, Vec3(Vec3::Zero())) << journals;
     EXPECT_EQ(found.journals[0].offset == Vec3(Vec3::Zero()), std::string(journals) == "centred") << journals;
+  }
+}
+
+// A seat of the floating bearing that is out of line by more than its radial play: the shaft lies otherwise, as every rung starts it.
+TEST(StartingJournals, AreThoseOfTheMechanismWithItsStandingErrors) {
+  MechanismDescription drawn =
+      read_mechanism(BORESIGHT_EXAMPLES "/bearing-pairs/gimbal.toml", {{"motion.duration", "1 ms"}});
+  const auto floating = std::find_if(drawn.joints.begin(), drawn.joints.end(),
+                                     [](const JointDescription& j) { return j.name == "yaw.floating"; });
+  ErrorDescription seat;
+  seat.name = "seat";
+  seat.joint = static_cast<int>(floating - drawn.joints.begin());
+  seat.body = kGround;
+  seat.direction = Vec3::UnitX();
+  seat.value = 12e-6;
+  drawn.errors.push_back(seat);
+  const auto m = std::make_shared<const Mechanism>(std::move(drawn));
+  const IdealMotion commanded = ideal_motion(*m, m->parameters());
+  const StartingJournals start = starting_journals(*m, m->parameters(), commanded);
+  EXPECT_EQ(start.warning, "");
+  Parameters without = m->parameters();
+  without.error.assign(1, 0.0);
+  const StartingJournals straight = starting_journals(*m, without, commanded);
+  EXPECT_GT((start.journals[1].offset - straight.journals[1].offset).norm(), 0.5 * seat.value);
+  for (const char* rung : {"perturbation", "multibody"}) {
+    const RunResult run = make_rung(rung, m)->run(m->parameters(), {});
+    ASSERT_EQ(run.clearances.size(), start.journals.size()) << rung;
+    for (std::size_t c = 0; c < start.journals.size(); ++c) {
+      const Vec3 offset = start.journals[c].offset;
+      EXPECT_LT((run.clearances[c].front().offset - offset).norm(), 1e-3 * offset.norm()) << rung << ' ' << c;
+    }
   }
 }
 
