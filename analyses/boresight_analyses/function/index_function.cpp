@@ -89,7 +89,7 @@ std::string IndexFunction::why_no_slopes() const {
     return "exact slopes are those of the perturbation rung, and this function is of " + model_.rung;
   for (const FunctionInput& input : inputs_) {
     const bool of_error = all_begin_with(input, "error.") && mechanism_->clearances() > 0;
-    if (!of_error && !std::all_of(input.paths.begin(), input.paths.end(), has_exact_slope))
+    if (!of_error && !std::all_of(input.paths.begin(), input.paths.end(), is_contact_path))
       return "exact slopes are those by standing errors beside play, and by numbers of a clearance's contacts; " +
              input.name() + " is neither";
   }

@@ -16,7 +16,7 @@ std::string why_no_slopes(const MatchingPlan& plan) {
   if (!plan.constraints.empty()) return "contact measures, which limits are put to, have no slopes";
   for (const DesignVariable& v : plan.variables)
     for (const std::string& path : v.paths)
-      if (!has_exact_slope(path))
+      if (!is_contact_path(path))
         return "slopes are those by numbers of a clearance's contacts, and " + path + " is none";
   for (const DesignVariable& v : plan.variables)
     if (!(v.from > 0.0)) return "slopes are those by numbers above zero, and " + v.name() + " may be zero";

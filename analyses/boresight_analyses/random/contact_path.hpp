@@ -10,9 +10,4 @@ inline bool is_contact_path(const std::string& path) {
   return path.starts_with("clearance.") && !path.ends_with(".preload");
 }
 
-// The least impact speed is in force where contacts last, and no derivative of it is carried along.
-inline bool has_exact_slope(const std::string& path) {
-  return is_contact_path(path) && !path.ends_with(".minimum_impact_speed");
-}
-
 }  // namespace boresight

@@ -45,7 +45,7 @@ void add_exact_slopes(const std::shared_ptr<const Mechanism>& shared, const Rand
     } else if (all_begin_with(p, "error.") && mechanism.clearances() > 0) {
       of_errors.push_back(i);
       errors.push_back(errors_of_unit(mechanism, p.places));
-    } else if (!std::all_of(p.paths.begin(), p.paths.end(), has_exact_slope)) {
+    } else if (!std::all_of(p.paths.begin(), p.paths.end(), is_contact_path)) {
       s.exact_note = "exact slopes are those by standing errors beside play, and by numbers of a clearance's contacts";
     } else if (!(s.median > 0.0)) {
       s.exact_note = "the median is not positive";

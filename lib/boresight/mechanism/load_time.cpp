@@ -13,12 +13,37 @@ namespace {
 constexpr double kFewest = 1024.0, kMost = 65536.0;  // looks along a motion
 constexpr double kMostAtErrors = 16384.0;            // each asks every law
 
+// Of a look: both ends, and between them no two apart by a whole number of anything's periods, which would look like no change at all.
+double time_of_look(int look, int looks, double duration) {
+  constexpr double kGolden = 0.6180339887498949;
+  if (look == 0 || look == looks) return look == 0 ? 0.0 : duration;
+  return duration * (look + std::fmod(look * kGolden, 1.0) - 0.5) / looks;
+}
+
+// How far a law goes, and how fast at most.
+struct Course {
+  double least = std::numeric_limits<double>::infinity(), largest = -least, rate = 0.0;
+  void add(const TimeValue& value) {
+    least = std::min(least, value.value);
+    largest = std::max(largest, value.value);
+    rate = std::max(rate, std::abs(value.rate));
+  }
+  // In which it changes by all that it does.
+  double time() const {
+    return rate > 0.0 && largest > least ? (largest - least) / rate : std::numeric_limits<double>::infinity();
+  }
+};
+
+int looks_along(double duration, double most) {
+  return static_cast<int>(std::clamp(std::ceil(duration / kLookedAt), kFewest, most));
+}
+
 }  // namespace
 
 double load_time(const Mechanism& mechanism) {
   constexpr double kNothing = 1e-6;  // a load that moves nothing that anybody sees may change as fast as it likes
   const double duration = mechanism.duration();
-  const int looks = static_cast<int>(std::clamp(std::ceil(duration / kLookedAt), kFewest, kMost));
+  const int looks = looks_along(duration, kMost);
   struct Change {
     double range = 0.0, rate = 0.0;  // as forces [N, N/s]
   };
@@ -29,16 +54,11 @@ double load_time(const Mechanism& mechanism) {
   size *= mechanism.description().gravity.norm();
   const auto look = [&](const TimeFunctionPtr& load, double lever) {
     if (!load) return;
-    double least = std::numeric_limits<double>::infinity(), largest = -least, rate = 0.0;
+    Course course;
     const int own = dynamic_cast<const ConstantFunction*>(load.get()) != nullptr ? 0 : looks;
-    for (int i = 0; i <= own; ++i) {
-      const TimeValue f = load->at(duration * i / looks);
-      least = std::min(least, f.value);
-      largest = std::max(largest, f.value);
-      rate = std::max(rate, std::abs(f.rate));
-    }
-    changes.push_back({(largest - least) / lever, rate / lever});
-    size = std::max({size, std::abs(least) / lever, std::abs(largest) / lever});
+    for (int i = 0; i <= own; ++i) course.add(load->at(time_of_look(i, looks, duration)));
+    changes.push_back({(course.largest - course.least) / lever, course.rate / lever});
+    size = std::max({size, std::abs(course.least) / lever, std::abs(course.largest) / lever});
   };
   for (const LoadDescription& load : mechanism.description().loads) {
     const bool torque = load.joint && mechanism.description().joints[*load.joint].type == JointType::revolute;
@@ -51,34 +71,40 @@ double load_time(const Mechanism& mechanism) {
   return shortest;
 }
 
-double error_time(const Mechanism& mechanism, const IdealMotion& commanded, const std::vector<bool>& wanted) {
-  struct Law {
-    const ErrorDescription* error;
-    double least = std::numeric_limits<double>::infinity(), largest = -least, rate = 0.0;
-  };
-  std::vector<Law> laws;
+std::vector<double> error_times(const Mechanism& mechanism, const IdealMotion& commanded,
+                                const std::vector<bool>& wanted) {
+  std::vector<double> times(wanted.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> laws;
   for (std::size_t e = 0; e < wanted.size(); ++e)
     if (const ErrorDescription& error = mechanism.description().errors[e];
         wanted[e] && error.law && dynamic_cast<const ConstantLaw*>(error.law.get()) == nullptr)
-      laws.push_back({&error});
-  double shortest = std::numeric_limits<double>::infinity();
-  if (laws.empty()) return shortest;
+      laws.push_back(e);
+  if (laws.empty()) return times;
   const double duration = mechanism.duration();
-  const int looks = static_cast<int>(std::clamp(std::ceil(duration / kLookedAt), kFewest, kMostAtErrors));
+  const int looks = looks_along(duration, kMostAtErrors);
   std::vector<TimeValue> drives(static_cast<std::size_t>(mechanism.joints()));
+  std::vector<Course> courses(laws.size());
   for (int i = 0; i <= looks; ++i) {
-    const double t = duration * i / looks;
+    const double t = time_of_look(i, looks, duration);
     commanded.drive_laws(t, drives);
-    for (Law& law : laws) {
-      const TimeValue errs = law.error->law->at(drives[static_cast<std::size_t>(law.error->joint)], t);
-      law.least = std::min(law.least, errs.value);
-      law.largest = std::max(law.largest, errs.value);
-      law.rate = std::max(law.rate, std::abs(errs.rate));
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      const ErrorDescription& error = mechanism.description().errors[laws[k]];
+      courses[k].add(error.law->at(drives[static_cast<std::size_t>(error.joint)], t));
     }
   }
-  for (const Law& law : laws)
-    if (law.rate > 0.0 && law.largest > law.least) shortest = std::min(shortest, (law.largest - law.least) / law.rate);
-  return std::max(shortest, duration / looks);  // a jump takes no time
+  for (std::size_t k = 0; k < laws.size(); ++k) times[laws[k]] = courses[k].time();
+  return times;
+}
+
+double least_error_time(const Mechanism& mechanism, double time) {
+  return std::max(time, mechanism.duration() / looks_along(mechanism.duration(), kMostAtErrors));
+}
+
+double error_time(const Mechanism& mechanism, const IdealMotion& commanded, const std::vector<bool>& wanted) {
+  const std::vector<double> times = error_times(mechanism, commanded, wanted);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const double time : times) shortest = std::min(shortest, time);
+  return least_error_time(mechanism, shortest);  // a jump takes no time
 }
 
 }  // namespace boresight

@@ -14,8 +14,13 @@ namespace boresight {
 // is longer than 65,536 of them: a blow that is over within one of these may not be seen.
 double load_time(const Mechanism& mechanism);
 
-// The same of the laws of drives' errors, those of which are `wanted`, along a commanded motion; no less than the
-// instants that were looked at lie apart, which are 16,384 at most: grids have no more cells.
+// The same of the laws of drives' errors, one by one, along a commanded motion; infinite of those that are not `wanted` or do not change.
+std::vector<double> error_times(const Mechanism& mechanism, const IdealMotion& commanded,
+                                const std::vector<bool>& wanted);
+// Of such a time, or the instants' distance that were looked at, where that is longer: what grids and steps answer to. These are 16,384 at most:
+// grids have no more cells.
+double least_error_time(const Mechanism& mechanism, double time);
+// The shortest of them, so bounded.
 double error_time(const Mechanism& mechanism, const IdealMotion& commanded, const std::vector<bool>& wanted);
 
 inline constexpr double kLookedAt = 50e-6;  // [s], or a 1,024th of a shorter motion

@@ -1,5 +1,6 @@
 #include "boresight/multibody/multibody.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <optional>
@@ -7,6 +8,8 @@
 
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/mechanism/built_mechanism.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/multibody/multibody_motion.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
@@ -15,6 +18,7 @@
 #include "boresight/scene/scene_rung.hpp"
 #include "boresight/stepping/default_integrator.hpp"
 #include "boresight/stepping/own_step.hpp"
+#include "boresight/stepping/steps_of_errors.hpp"
 
 namespace boresight {
 namespace {
@@ -53,11 +57,19 @@ class Multibody final : public Rung {
     } else if (integrator != "rk4") {
       result = follow_locating_contacts({mechanism, parameters, options, ideal, *commanded}, integrator);
     } else {
-      const double own = options.step > 0.0 ? options.step : own_step(mechanism, parameters, ideal);
+      const std::vector<double>& of_errors = error_times_along(*commanded);
+      const double own =
+          options.step > 0.0
+              ? options.step
+              : own_step(mechanism, parameters, ideal,
+                         std::min(load_time(mechanism), time_of_errors(mechanism, of_errors, parameters)));
       result = follow_by_default(
           options, own,
           [&](const RunOptions& by_steps, double step) {
-            return follow_in_fixed_steps({mechanism, parameters, by_steps, ideal, *commanded}, step);
+            RunResult stepped = follow_in_fixed_steps({mechanism, parameters, by_steps, ideal, *commanded}, step);
+            if (std::string missed = errors_not_followed(mechanism, of_errors, parameters, step); !missed.empty())
+              stepped.warnings.push_back(std::move(missed));
+            return stepped;
           },
           [&](const RunOptions& located) {
             check_options(located, name(), mechanism, parameters);
@@ -132,6 +144,15 @@ class Multibody final : public Rung {
     return built_ = built;
   }
 
+  // Of the drives' laws, which no parameter changes.
+  const std::vector<double>& error_times_along(const IdealMotion& commanded) const {
+    std::call_once(error_times_once_, [&] {
+      const std::vector<bool> all(mechanism_->description().errors.size(), true);
+      error_times_ = error_times(*mechanism_, commanded, all);
+    });
+    return error_times_;
+  }
+
   // Sentences on plays that cannot move: of the mechanism, whatever the parameters.
   const std::vector<std::string>& held_by_others(const IdealMotion& ideal) const {
     std::call_once(held_once_, [&] { held_ = held_plays(*mechanism_, ideal); });
@@ -139,7 +160,8 @@ class Multibody final : public Rung {
   }
 
   std::shared_ptr<const Mechanism> mechanism_;
-  mutable std::once_flag once_, held_once_;
+  mutable std::once_flag once_, held_once_, error_times_once_;
+  mutable std::vector<double> error_times_;
   mutable std::vector<std::string> held_;
   mutable bool kinematic_ = false;
   mutable std::mutex ideal_mutex_;

@@ -22,6 +22,7 @@
 #include "boresight/stepping/measured_error.hpp"
 #include "boresight/stepping/motion_scales.hpp"
 #include "boresight/stepping/own_step.hpp"
+#include "boresight/stepping/steps_of_errors.hpp"
 #include "boresight/stepping/unstable_step.hpp"
 
 namespace boresight {
@@ -76,8 +77,10 @@ class Perturbation final : public SceneRung {
     const std::string integrator = integrator_of(options);
     if (integrator != "rk4")
       return integrate_located(tables, prepared, standing, parameters, options, integrator, largest);
+    const double of_loads =
+        std::min(prepared.load_time(), time_of_errors(mechanism(), prepared.error_times(), parameters));
     const double own =
-        options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal(), prepared.load_time());
+        options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal(), of_loads);
     return follow_by_default(
         options, own,
         [&](const RunOptions& by_steps, double step) {
@@ -147,6 +150,8 @@ class Perturbation final : public SceneRung {
     result.integrator = text;
     if (!start_warning.empty()) result.warnings.push_back(start_warning);
     if (const std::string warning = damping.warning(); !warning.empty()) result.warnings.push_back(warning);
+    if (std::string missed = errors_not_followed(mechanism, prepared.error_times(), parameters, h); !missed.empty())
+      result.warnings.push_back(std::move(missed));
     result.damped_beyond_steps = damping.beyond();
     finish_contacts(system, result);
     result.interrupted = interrupted;

@@ -6,6 +6,7 @@
 
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/option_check.hpp"
 #include "boresight/scene/held_play.hpp"
@@ -99,6 +100,14 @@ StandingDisplacement PreparedScene::standing(const Parameters& parameters) const
   if (!errors_) errors_ = StandingErrors::of_all(mechanism_, ideal_);
   errors_->require(parameters.error);
   return {errors_, parameters.error};
+}
+
+const std::vector<double>& PreparedScene::error_times() const {
+  std::call_once(error_times_once_, [this] {
+    const std::vector<bool> all(mechanism_.description().errors.size(), true);
+    error_times_ = boresight::error_times(mechanism_, ideal_, all);
+  });
+  return error_times_;
 }
 
 StandingLoads::Change PreparedScene::changed_loads(const Parameters& parameters,

@@ -31,6 +31,8 @@ class PreparedScene {
   double own_time() const { return own_time_; }
   // In which a load changes by all that it does [s]: load_time.hpp.
   double load_time() const { return scene_.load_time(); }
+  // The same of each error's law, one by one: error_times().
+  const std::vector<double>& error_times() const;
   // Tables of these masses, gravity, springs; the last ones asked for are kept.
   std::shared_ptr<const SceneTables> tables(const Parameters& parameters) const;
   // The same with what this sample's errors change of the loads, and where they leave the offsets that redundant joints tie to others.
@@ -58,6 +60,8 @@ class PreparedScene {
   mutable std::map<int, TimeTable> pose_gain_, pose_gain_rate_;
   mutable std::shared_ptr<const StandingErrors> errors_;
   mutable std::shared_ptr<const StandingLoads> loads_;
+  mutable std::once_flag error_times_once_;
+  mutable std::vector<double> error_times_;
 };
 
 // Whether a scene that was prepared with other parameters holds for these.

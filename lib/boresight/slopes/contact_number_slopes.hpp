@@ -23,6 +23,8 @@ struct ContactNumbers {
   std::vector<std::vector<std::array<double, kMostContactNumbers>>>
       by;                      // [parameter][clearance]: d number / d parameter
   std::vector<double> values;  // of the parameters
+  // Of the speed that a contact is damped by at least, likewise: no number of the play itself.
+  std::vector<std::vector<double>> least_speed_by = {};
 };
 
 // parameters_at: the mechanism's parameters at some values of those fitted. values: > 0.

@@ -17,7 +17,7 @@
 // f- at every closing and opening, the jump in S is zero, and what is left of the impact's sensitivity is in
 // the memory. The latched speed is the gap's rate r(t, y, q) at the event:
 //
-//   dm/dq = r_y S + r_q + (r_t + r_y f) dt*/dq        0 where the least impact speed takes its place
+//   dm/dq = r_y S + r_q + (r_t + r_y f) dt*/dq        the least impact speed's own where that takes its place
 //
 // Where contact only grazes, g_t + g_y f -> 0 and dt*/dq grows without bound: derivatives there hold for ever
 // smaller changes of q only. Such impacts are counted.

@@ -31,8 +31,12 @@ class SensitiveSystem {
         acceleration_(tables_->layout.n) {
     for (std::size_t c = 0; c < numbers.joints.size(); ++c) {
       joints_.push_back(joint_with_derivatives(numbers, c, first));
+      Jet least(numbers.joints[c].minimum_impact_speed);
+      for (int d = 0; d < W && first + d < static_cast<int>(numbers.by.size()); ++d)
+        least.v[d] = numbers.least_speed_by[first + d][c];
+      least_speed_.push_back(least);
       ImpactSpeeds<Jet> speed;
-      speed.fill(Jet(numbers.joints[c].minimum_impact_speed));
+      speed.fill(least);
       impact_speed_.push_back(speed);
       for (ContactPlace place : numbers.joints[c].places()) gaps_.push_back({static_cast<int>(c), place});
     }
@@ -182,7 +186,7 @@ class SensitiveSystem {
     Jet& speed = impact_speed_[c][place];
     speed = Jet(memory(c).impact_speed[place]);
     const bool latched = here.rate.a > joints_[c].minimum_impact_speed;
-    if (latched) speed.v = here.rate.v;
+    speed.v = latched ? here.rate.v : least_speed_[c].v;
     if (latched && event_time) speed.v -= rate_of_rate(gap, *event_time) / here.rate.a * here.penetration.v;
     if (!event_time) return;
     approach_speed.push_back(here.rate.a);
@@ -226,6 +230,7 @@ class SensitiveSystem {
   std::shared_ptr<const SceneTables> tables_;
   PerturbationSystem plain_;
   std::vector<JointPlayT<Jet>> joints_;
+  std::vector<Jet> least_speed_;  // that a contact is damped by
   std::vector<ImpactSpeeds<Jet>> impact_speed_;
   std::vector<Gap> gaps_;
   mutable std::vector<double> row_;

@@ -9,6 +9,7 @@
 #include "boresight/mechanism/load_time.hpp"
 #include "boresight/play/play_words.hpp"
 #include "boresight/scene/acting_loads.hpp"
+#include "boresight/stepping/steps_of_errors.hpp"
 
 namespace boresight {
 namespace {
@@ -97,7 +98,9 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
       kFewestInstants,
       std::min(mechanism.duration() / kSpacing, std::max<double>(kManyInstants, kInstantsPerKnot * scene.knots())));
   // Whatever the knots of the scene: how fine these are may be decided by rounding.
-  const double of_loads = mechanism.duration() / (kCellOfLoads * prepared.load_time());
+  const double of_loads =
+      mechanism.duration() /
+      (kCellOfLoads * std::min(prepared.load_time(), time_of_errors(mechanism, prepared.error_times(), parameters)));
   const double of_motion = (prepared.ideal().knots() - 1.0) / kKnotsOfInstant;
   instants_ = static_cast<int>(std::ceil(std::max({wanted, of_loads, of_motion}) / share)) + 1;
   spacing_ = mechanism.duration() / (instants_ - 1);

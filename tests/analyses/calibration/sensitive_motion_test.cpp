@@ -82,6 +82,26 @@ TEST(SensitiveMotion, DerivativesJumpWhereADashpotMakesTheForceStartAtOnce) {
   expect_derivatives_of_differences(scene, flight_to(8e-3));
 }
 
+// A journal that lies in its sleeve is damped as if it had struck at the least speed.
+TEST(SensitiveMotion, DerivativesByTheLeastImpactSpeedAreThoseOfDifferences) {
+  const Scene scene({}, {"clearance.A.contact.minimum_impact_speed"});
+  MotionRequest request = flight_to(4e-3);
+  request.start_state =
+      start_slopes(
+          scene.mechanism, *scene.tables, [&](const auto& x) { return scene.at(x); }, scene.values, true)
+          .state;
+  request.start_state.head<3>() *= 1.0 + 1e-4;  // pressed deeper, so that the contact swings and is damped
+  const SensitiveMotion motion = scene.follow(scene.values, request, true);
+  ASSERT_TRUE(motion.impact_speed.empty());
+  const auto moved = [&](double share) {
+    return VecX(scene.follow({scene.values[0] * (1.0 + share)}, request, false).state.col(0));
+  };
+  constexpr double kShare = 1e-2;
+  const VecX difference = (moved(kShare) - moved(-kShare)) / (2.0 * kShare * scene.values[0]);
+  EXPECT_GT(difference.norm(), 0.0);
+  EXPECT_LT((motion.by[0].col(0) - difference).norm(), 1e-3 * difference.norm());
+}
+
 TEST(SensitiveMotion, DerivativesByAMassAreThoseOfRichardsonDifferences) {
   const Mechanism mechanism(
       read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", std::vector<Setting>{}));

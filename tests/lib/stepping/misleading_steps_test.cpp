@@ -1,12 +1,17 @@
 // A step that is far beyond its accuracy is refused in words; a contact that is open keeps no speed of the one before.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numbers>
+
 #include "boresight/contact_events/contact_tracker.hpp"
 #include "boresight/contact_events/damped_contact.hpp"
 #include "boresight/formulations/force_elements.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/stepping/own_step.hpp"
+#include "error_scenes.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
@@ -51,6 +56,57 @@ TEST(OwnStep, FollowsAMotionThatIsFastForAMoment) {
   const double fast = own_step(*jumping, jumping->parameters(), IdealMotion::kinematic(*jumping));
   EXPECT_GT(slow, 2e-5);
   EXPECT_LT(fast, 1e-5);  // over which the drive moves
+}
+
+// A ripple that goes on once, or ten times, in each of the looks is no constant.
+TEST(LoadTime, IsThatOfARippleAtTheLooksOwnPeriod) {
+  const auto mechanism = [](const char* law) {
+    MechanismDescription m = scenes::rrcpr({{"motion.duration", "1 s"}});
+    m.errors.push_back(scenes::drive_error(m, "P1", law));
+    LoadDescription& load = m.loads.emplace_back();
+    load.body = 0;
+    for (TimeFunctionPtr& force : load.force) force = parse_expression(law);
+    return scenes::build(m);
+  };
+  for (const double hertz : {2e4, 2e5}) {
+    const auto rippling = mechanism(hertz == 2e4 ? "100*cos(2*pi*2e4*t)" : "100*cos(2*pi*2e5*t)");
+    const double time = 2.0 / (2.0 * std::numbers::pi * hertz);
+    EXPECT_NEAR(load_time(*rippling), time, 0.01 * time) << hertz;
+    const auto times = error_times(*rippling, IdealMotion::kinematic(*rippling), {true});
+    EXPECT_NEAR(times[0], time, 0.01 * time) << hertz;
+  }
+}
+
+// A drive's ripple goes on once, or twice, in half the step that the contacts ask for: RK4 would meet it at one phase of it always.
+TEST(OwnStep, FollowsARippleOfADrive) {
+  const auto run = [](const char* rung, const char* law, double value, double step) {
+    MechanismDescription m = scenes::rrcpr({{"motion.duration", "5 ms"}, {"initial.journals", "rest"}});
+    m.errors.push_back(scenes::drive_error(m, "P1", law));
+    m.errors.back().value = value;
+    const auto mechanism = scenes::build(m);
+    RunOptions options;
+    options.sample_spacing = 0.0;
+    options.step = step;
+    options.model_look = ModelLook::none;
+    return make_rung(rung, mechanism)->run(mechanism->parameters(), options);
+  };
+  const auto says = [](const RunResult& result) {
+    return std::any_of(result.warnings.begin(), result.warnings.end(), [](const std::string& warning) {
+      return warning.find("its law changes by all") != std::string::npos;
+    });
+  };
+  constexpr double kTiny = 1e-13;  // [m]: no contact is disturbed
+  const char* law = "cos(2*pi*4e4*t)";
+  for (const char* rung : {"perturbation", "multibody"}) {
+    const RunResult still = run(rung, law, 0.0, 0.0), rippling = run(rung, law, kTiny, 0.0);
+    EXPECT_NEAR(5e-3 / still.cost.steps, 50e-6, 1e-6) << rung;
+    EXPECT_LT(5e-3 / rippling.cost.steps, 8e-6) << rung;  // in which the law changes by all that it does
+    EXPECT_FALSE(says(still)) << rung;
+    EXPECT_FALSE(says(rippling)) << rung;
+    EXPECT_TRUE(says(run(rung, law, kTiny, 50e-6))) << rung;
+  }
+  // Nor do balances at instants.
+  EXPECT_LT(2.0 * run("quasistatic", law, 0.0, 0.0).cost.steps, run("quasistatic", law, kTiny, 0.0).cost.steps);
 }
 
 // A journal that rests under its load without having struck: D = chi F / v grows without bound as the least impact speed falls.
