@@ -312,7 +312,8 @@ void Allocating::search_rounds(const ConfirmingModel& confirm, const std::string
       a = cheapest(plan_.requirement.limit);
     }
     if (!a.feasible) break;
-    if (result_.feasible && !(a.price < result_.chosen.price * (1.0 - 1e-9)) && !result_.confirmations.back().agrees) {
+    if (result_.feasible && !(a.price < result_.chosen.price * (1.0 - kRoundingOfPrices)) &&
+        !result_.confirmations.back().agrees) {
       // Nothing cheaper under the corrected factor than what was confirmed already.
       AllocationConfirmation& last = result_.confirmations.back();
       last.sentence +=

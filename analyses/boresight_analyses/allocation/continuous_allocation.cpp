@@ -123,53 +123,94 @@ ContinuousAllocation allocate_continuous(const std::vector<ContinuousTolerance>&
   const double share = last_within(requirement, limit, from, problem.upper, result.evaluations);
   for (std::size_t j = 0; j < joints.size(); ++j)
     problem.start.push_back(from[j] + share * (problem.upper[j] - from[j]));
-  const double price_scale = std::max(price_of(joints, exponentials(problem.start)), 1e-300);
-
-  problem.gradients = true;
-  problem.objective = [&](std::span<const double> x, std::span<double> gradient) {
-    const std::vector<double> t = exponentials(x);
-    for (std::size_t j = 0; j < gradient.size(); ++j) gradient[j] = joints[j].cost.slope(t[j]) * t[j] / price_scale;
-    return price_of(joints, t) / price_scale;
-  };
-  problem.constraints.push_back([&](std::span<const double> x, std::span<double> gradient) {
-    const std::vector<double> t = exponentials(x);
-    ++result.evaluations;
-    const double value = requirement(t, gradient);
-    for (std::size_t j = 0; j < gradient.size(); ++j) gradient[j] *= t[j] / limit;
-    return value / limit - 1.0;
-  });
-
-  // A requirement with kinks (an order statistic, a maximum over time) can stop either algorithm short; the
-  // better one stands, pulled back onto the limit where it lies beyond it.
+  // A requirement with kinks (an order statistic, a maximum over time) can stop either algorithm short; the better one stands, pulled back
+  // onto the limit where it lies beyond it. `free`: the tolerances that are sought, by what they cost above the least that they may; the
+  // others stay. `anchor` keeps the limit.
   std::vector<double> best = problem.start;
-  const auto offer = [&](const std::vector<double>& x, bool converged) {
-    const double s = last_within(requirement, limit, from, x, result.evaluations);
-    std::vector<double> kept(x.size());
-    for (std::size_t j = 0; j < x.size(); ++j) kept[j] = from[j] + s * (x[j] - from[j]);
-    if (price_of(joints, exponentials(kept)) < price_of(joints, exponentials(best))) {
+  const auto seek = [&](const std::vector<std::size_t>& free, const std::vector<double>& anchor) {
+    const auto whole = [&](std::span<const double> x) {
+      std::vector<double> all = best;
+      for (std::size_t i = 0; i < free.size(); ++i) all[free[i]] = x[i];
+      return all;
+    };
+    const auto excess = [&](const std::vector<double>& x) {
+      double sum = 0.0;
+      for (const std::size_t j : free) sum += joints[j].cost.above(std::exp(x[j]), joints[j].upper);
+      return sum;
+    };
+    const double scale = std::max(excess(best), 1e-300);
+    MinimisationProblem part;
+    for (const std::size_t j : free) {
+      part.lower.push_back(problem.lower[j]);
+      part.upper.push_back(problem.upper[j]);
+    }
+    part.gradients = true;
+    part.objective = [&](std::span<const double> x, std::span<double> gradient) {
+      const std::vector<double> all = whole(x);
+      for (std::size_t i = 0; i < gradient.size(); ++i) {
+        const double t = std::exp(x[i]);
+        gradient[i] = joints[free[i]].cost.slope(t) * t / scale;
+      }
+      return excess(all) / scale;
+    };
+    part.constraints.push_back([&](std::span<const double> x, std::span<double> gradient) {
+      const std::vector<double> t = exponentials(whole(x));
+      ++result.evaluations;
+      std::vector<double> slopes(gradient.empty() ? 0 : t.size());
+      const double value = requirement(t, slopes);
+      for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] = slopes[free[i]] * t[free[i]] / limit;
+      return value / limit - 1.0;
+    });
+    const auto offer = [&](const std::vector<double>& x, bool converged) {
+      const std::vector<double> to = whole(x);
+      const double s = last_within(requirement, limit, anchor, to, result.evaluations);
+      std::vector<double> kept(to.size());
+      for (std::size_t j = 0; j < to.size(); ++j) kept[j] = anchor[j] + s * (to[j] - anchor[j]);
+      if (!(excess(kept) < excess(best))) return false;
       best = kept;
       result.converged = converged;
       return true;
+    };
+    constexpr int kMostDescents = 6;
+    for (int descent = 0; descent < kMostDescents; ++descent) {
+      const double before = excess(best);
+      for (const char* algorithm : {"slsqp", "mma"}) {
+        part.start.clear();
+        for (const std::size_t j : free) part.start.push_back(best[j]);
+        const Minimum minimum = minimise(part, {.global = "none",
+                                                .local = algorithm,
+                                                .local_evaluations = 300,
+                                                .tolerance = 1e-10,
+                                                .constraint_tolerance = 1e-10});
+        if (offer(minimum.x, minimum.converged))
+          result.why =
+              std::string(algorithm) + " in ln t: gradients are at hand, and reciprocal costs are convex there";
+      }
+      if (!(excess(best) < before * (1.0 - 1e-7))) {
+        result.converged = true;  // neither moves on
+        break;
+      }
     }
-    return false;
   };
-  constexpr int kMostDescents = 6;
-  for (int descent = 0; descent < kMostDescents; ++descent) {
-    const double before = price_of(joints, exponentials(best));
-    for (const char* algorithm : {"slsqp", "mma"}) {
-      problem.start = best;
-      const Minimum minimum = minimise(problem, {.global = "none",
-                                                 .local = algorithm,
-                                                 .local_evaluations = 300,
-                                                 .tolerance = 1e-10,
-                                                 .constraint_tolerance = 1e-10});
-      if (offer(minimum.x, minimum.converged))
-        result.why = std::string(algorithm) + " in ln t: gradients are at hand, and reciprocal costs are convex there";
+  std::vector<std::size_t> free(joints.size());
+  std::iota(free.begin(), free.end(), std::size_t{0});
+  seek(free, from);
+  // Prices that are small beside others do not show in the sum: they are sought once more by themselves, the dear ones being where
+  // they are.
+  for (;;) {
+    constexpr double kSmall = 1e-5;
+    std::vector<double> say(joints.size());
+    double most = 0.0;
+    for (const std::size_t j : free) {
+      const double t = std::exp(best[j]);
+      most = std::max(most, say[j] = std::abs(joints[j].cost.slope(t) * t));
     }
-    if (price_of(joints, exponentials(best)) > before * (1.0 - 1e-7)) {
-      result.converged = true;  // neither moves on
-      break;
-    }
+    std::vector<std::size_t> small;
+    for (const std::size_t j : free)
+      if (say[j] > 0.0 && say[j] < kSmall * most) small.push_back(j);
+    if (small.empty()) break;
+    free = small;
+    seek(free, std::vector<double>(best));
   }
   result.feasible = true;
   result.tolerance = exponentials(best);

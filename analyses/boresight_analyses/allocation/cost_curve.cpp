@@ -14,6 +14,11 @@ double CostCurve::slope(double t) const {
   return law == Law::exponential ? -a * b * std::exp(-b * t) : -exponent * b / std::pow(t, exponent + 1.0);
 }
 
+double CostCurve::above(double t, double than) const {
+  return law == Law::exponential ? a * (std::exp(-b * t) - std::exp(-b * than))
+                                 : b / std::pow(t, exponent) - b / std::pow(than, exponent);
+}
+
 std::string CostCurve::text() const {
   char text[120];
   if (law == Law::exponential)

@@ -22,6 +22,8 @@ struct CostCurve {
 
   double price(double t) const;
   double slope(double t) const;  // d price / d t, not positive
+  // price(t) - price(than), without the digits that a large constant price would take from it.
+  double above(double t, double than) const;
   std::string text() const;
 };
 

@@ -69,9 +69,9 @@ class BranchAndBound {
   }
 
  private:
-  // Prices are sums of a few numbers; differences below this are rounding. Any price, while no set is known.
+  // Any price, while no set is known.
   bool cheaper(double price) const {
-    return !result_.feasible || price < result_.price - 1e-9 * std::abs(result_.price);
+    return !result_.feasible || price < result_.price - kRoundingOfPrices * std::abs(result_.price);
   }
 
   bool offer(const std::vector<int>& choice) {
@@ -158,9 +158,10 @@ class BranchAndBound {
   // weights priced.
   void try_multipliers() {
     std::vector<std::pair<double, std::vector<int>>> tries;
-    for (const AdditiveInequality& inequality : inequalities_)
-      for (double decade = -4.0; decade < 4.0; decade += 0.02) {
-        const double lambda = std::pow(10.0, decade) * scale_of(inequality);
+    for (const AdditiveInequality& inequality : inequalities_) {
+      const auto [least, largest] = multipliers_of(inequality);
+      for (double decade = least; decade < largest; decade += 0.02) {
+        const double lambda = std::pow(10.0, decade);
         std::vector<int> choice;
         for (std::size_t j = 0; j < price_.size(); ++j) {
           std::size_t best = 0;
@@ -171,22 +172,28 @@ class BranchAndBound {
         }
         tries.emplace_back(price_of(price_, choice), std::move(choice));
       }
+    }
     std::sort(tries.begin(), tries.end());
     tries.erase(std::unique(tries.begin(), tries.end()), tries.end());
     for (const auto& [price, choice] : tries)
       if (offer(choice)) break;
   }
 
-  // A price over a weight, of the order of the multiplier.
-  double scale_of(const AdditiveInequality& inequality) const {
-    double price = 0.0, weight = 0.0;
+  // From and to what power of ten multipliers are of interest: four to either side of the largest price over the largest weight, and
+  // further down where some joint's own are smaller, so that cheap joints have their say beside dear ones.
+  std::pair<double, double> multipliers_of(const AdditiveInequality& inequality) const {
+    constexpr double kAround = 4.0, kOfOneJoint = 1.0;
+    double price = 0.0, weight = 0.0, least = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < price_.size(); ++j) {
       const auto [cheap, dear] = std::minmax_element(price_[j].begin(), price_[j].end());
       const auto [low, high] = std::minmax_element(inequality.weight[j].begin(), inequality.weight[j].end());
       price = std::max(price, *dear - *cheap);
       weight = std::max(weight, *high - *low);
+      if (*dear > *cheap && *high > *low) least = std::min(least, (*dear - *cheap) / (*high - *low));
     }
-    return weight > 0.0 ? price / weight : 0.0;
+    if (!(price > 0.0) || !(weight > 0.0)) return {0.0, 0.0};
+    const double middle = std::log10(price / weight);
+    return {std::min(middle - kAround, std::log10(least) - kOfOneJoint), middle + kAround};
   }
 
   double bound_of(const Node& node) const {

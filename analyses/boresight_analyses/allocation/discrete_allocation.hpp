@@ -55,4 +55,8 @@ DiscreteAllocation allocate_discrete(const std::vector<std::vector<double>>& pri
 
 double price_of(const std::vector<std::vector<double>>& price, std::span<const int> choice);
 
+// Prices are sums of some tens of numbers: what differs by less than this share of them differs by rounding. No more, for what is to
+// be saved may be small beside what has to be paid anyhow.
+inline constexpr double kRoundingOfPrices = 1e-13;
+
 }  // namespace boresight

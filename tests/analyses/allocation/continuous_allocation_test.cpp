@@ -83,6 +83,34 @@ TEST(ContinuousAllocation, KeepsATightToleranceAtItsBoundAndSharesOutTheRest) {
               std::sqrt(kB[1] / kSensitivity[1]) / std::sqrt(kB[2] / kSensitivity[2]), 1e-6);
 }
 
+// What has to be paid anyhow says nothing of how the rest is shared out.
+TEST(ContinuousAllocation, SharesOutSmallPricesBesideALargeOneThatIsPaidAnyhow) {
+  constexpr double kLimit = 2e-4, kDear = 1e12;
+  std::vector<ContinuousTolerance> all = joints(1.0);
+  all[1].cost = make_cost_curve("reciprocal", kDear, kB[1], 1.0, 1e-3);
+  double sum = 0.0;
+  for (std::size_t j = 0; j < kB.size(); ++j) sum += std::sqrt(kB[j] * kSensitivity[j]);
+  const ContinuousAllocation found = allocate_continuous(all, worst, kLimit);
+  ASSERT_TRUE(found.feasible);
+  for (std::size_t j = 0; j < kB.size(); ++j)
+    EXPECT_NEAR(found.tolerance[j] / (std::sqrt(kB[j] / kSensitivity[j]) * kLimit / sum), 1.0, 1e-5) << j;
+}
+
+// A joint so dear that it is as wide as it may be: the others keep Chase's proportion.
+TEST(ContinuousAllocation, SharesOutSmallPricesBesideADearJointAtItsBound) {
+  std::vector<ContinuousTolerance> all = joints(1.0);
+  all[0].cost = make_cost_curve("reciprocal", 1.0, 1e12, 1.0, 1e-3);
+  all[0].upper = 1e-5;
+  const ContinuousAllocation found = allocate_continuous(all, worst, 2e-4);
+  EXPECT_NEAR(found.tolerance[0], 1e-5, 1e-11);
+  EXPECT_NEAR(found.reached / 2e-4, 1.0, 1e-6);
+  for (const std::size_t j : {std::size_t{1}, std::size_t{3}})
+    EXPECT_NEAR(found.tolerance[j] / found.tolerance[2] /
+                    (std::sqrt(kB[j] / kSensitivity[j]) / std::sqrt(kB[2] / kSensitivity[2])),
+                1.0, 1e-4)
+        << j;
+}
+
 TEST(ContinuousAllocation, SaysWhatTheTightestReachWhereTheLimitIsBelowIt) {
   const ContinuousAllocation found = allocate_continuous(joints(1.0), worst, 1e-8);
   EXPECT_FALSE(found.feasible);

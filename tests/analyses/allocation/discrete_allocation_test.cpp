@@ -98,6 +98,27 @@ TEST(DiscreteAllocation, IsExactOnFiveJointsForEveryWayOfJudging) {
   }
 }
 
+// What must be paid anyhow does not hide what may be saved beside it.
+TEST(DiscreteAllocation, IsExactWhereOneJointsPricesAreATrillionTimesThoseOfTheOthers) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Scene s = scene(4, 5, 500 + seed);
+    for (std::size_t o = 0; o < s.price[1].size(); ++o) s.price[1][o] += 1e12;
+    const StatisticalRequirement requirement(s.deviation, s.gap, s.unit, 5, 40e-6);
+    std::int64_t meeting = 0;
+    const double best = brute_force(s.price, requirement, meeting);
+    if (meeting == 0) continue;
+    const DiscreteAllocation found = allocate_discrete(s.price, tightest_options(s.gap), requirement);
+    EXPECT_TRUE(found.proven);
+    EXPECT_NEAR(found.price - 1e12, best - 1e12, 0.2) << seed;
+    // Where the steps between its options are as dear too.
+    for (std::size_t o = 0; o < s.price[1].size(); ++o) s.price[1][o] = 1e12 * static_cast<double>(o + 1);
+    const double dear = brute_force(s.price, requirement, meeting);
+    const DiscreteAllocation steps = allocate_discrete(s.price, tightest_options(s.gap), requirement);
+    EXPECT_TRUE(steps.proven);
+    EXPECT_NEAR(steps.price, dear, 0.5) << seed;
+  }
+}
+
 // Gaps that work against each other: the tightest set keeps no limit that a wider one does not.
 TEST(DiscreteAllocation, FindsTheCheapestWhereTheTightestSetKeepsNoLimit) {
   for (const char* statistic : {"max", "p99.73"}) {
