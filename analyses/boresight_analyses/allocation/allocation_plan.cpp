@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <set>
 
+#include "boresight/keys/parameter_unit.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -38,12 +39,12 @@ std::vector<AllocationOption> read_fits(Cursor& table, ZoneLaw law, const std::v
   return options;
 }
 
-std::vector<AllocationOption> read_processes(Cursor& table, const AllocationEntry& of, ZoneLaw law) {
+std::vector<AllocationOption> read_processes(Cursor& table, const AllocationEntry& of, const SiUnit& unit,
+                                             ZoneLaw law) {
   std::vector<AllocationOption> options;
   for (Cursor& entry : table.tables("processes")) {
     entry.only(of.is_error ? allocate_error_process_keys() : allocate_process_keys());
-    const double tolerance =
-        of.is_error ? entry.value("tolerance", unit_called(of.unit())) : entry.quantity("tolerance");
+    const double tolerance = of.is_error ? entry.value("tolerance", unit) : entry.quantity("tolerance");
     entry.require(tolerance > 0.0, "tolerance", "more than 0");
     entry.require(!entry.text("name").empty(), "name", "a name");
     options.push_back({entry.text("name"), entry.number("price"), of.zone(tolerance, law)});
@@ -58,7 +59,7 @@ const char* usual_unit(const std::string& si_unit) {
   return si_unit == "m" ? "mm" : si_unit == "rad" ? "mrad" : si_unit.c_str();
 }
 
-ContinuousTolerance read_curve(Cursor& table, const AllocationEntry& of) {
+ContinuousTolerance read_curve(Cursor& table, const AllocationEntry& of, const SiUnit& written_in) {
   Cursor cost = table.table("cost");
   cost.only(allocate_cost_keys());
   const std::string law = cost.choice("law");
@@ -68,13 +69,13 @@ ContinuousTolerance read_curve(Cursor& table, const AllocationEntry& of) {
   const std::string unit = cost.has("unit") ? cost.text("unit") : usual_unit(of.unit());
   double si = 1.0;
   try {
-    si = scale_of_unit(unit, unit_called(of.unit()));
+    si = scale_of_unit(unit, written_in);
   } catch (const ValueFault& fault) {
     cost.fail_found("unit", fault.found, fault.expected, fault.nearest);
   }
   cost.finish();
   const std::vector<double> bounds =
-      of.is_error ? table.values("tolerance", unit_called(of.unit())) : table.quantities("tolerance");
+      of.is_error ? table.values("tolerance", written_in) : table.quantities("tolerance");
   table.require(bounds.size() == 2 && bounds[0] > 0.0 && bounds[0] < bounds[1], "tolerance",
                 of.is_error ? "two values, the tightest and the widest tolerance"
                             : "two lengths, the tightest and the widest tolerance");
@@ -129,9 +130,9 @@ AllocationEntry read_joint(Cursor& entry, const std::vector<AllocationOption>& c
   if (entry.has("fits")) {
     joint.options = read_fits(entry, law, journals);
   } else if (entry.has("processes")) {
-    joint.options = read_processes(entry, joint, law);
+    joint.options = read_processes(entry, joint, kLength, law);
   } else if (entry.has("cost")) {
-    joint.curve = read_curve(entry, joint);
+    joint.curve = read_curve(entry, joint, kLength);
   } else {
     if (common.empty()) entry.fail("fits", "fits, processes or cost; or fits of all joints, in [allocate]");
     joint.options = common;
@@ -167,10 +168,11 @@ std::vector<AllocationEntry> read_errors_of(Cursor& table, ZoneLaw law, const Me
       table.fail_found(
           "parameter", in_quotes(path) + ", which is measured in " + entry.unit(),
           "errors of one kind in a table: " + in_quotes(paths.front()) + " is measured in " + entries.front().unit());
+    const SiUnit unit = unit_of_parameters(mechanism, entry.paths, entry.unit());
     if (table.has("processes"))
-      entry.options = read_processes(table, entry, law);
+      entry.options = read_processes(table, entry, unit, law);
     else
-      entry.curve = read_curve(table, entry);
+      entry.curve = read_curve(table, entry, unit);
     check_gaps(table, entry, accepts);
     entries.push_back(std::move(entry));
   }

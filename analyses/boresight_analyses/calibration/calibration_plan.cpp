@@ -6,6 +6,7 @@
 
 #include "boresight/contact/normal_law.hpp"
 #include "boresight/io/referred_file.hpp"
+#include "boresight/keys/parameter_unit.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/parameter_path.hpp"
@@ -35,6 +36,7 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
   p.origin = table.origin("path");
   const bool is_error = p.path.starts_with("error.");
   const std::string unit = ParameterPath(mechanism, p.path, p.origin).unit();
+  const SiUnit written_in = unit_of_parameters(mechanism, {p.path}, unit);
   const bool is_mass = !is_error && !p.path.starts_with("clearance.") && unit == "kg";
   if (!is_error && !is_mass && !p.path.starts_with("clearance."))
     table.fail("path",
@@ -43,7 +45,7 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
     if (!table.has(key)) return {};
     if (p.written_unit.empty()) p.written_unit = table.unit_as_written(key);
     // The scale of a drive has no unit, as in the mechanism file.
-    const double x = is_error && table.is_number(key) ? table.value(key, kRatio) : table.value(key, unit_called(unit));
+    const double x = is_error && table.is_number(key) ? table.value(key, kRatio) : table.value(key, written_in);
     if ((!is_error || key == std::string("prior")) && !(x > 0.0)) table.fail(key, "more than 0");
     return x;
   };

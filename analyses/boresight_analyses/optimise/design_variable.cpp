@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/keys/parameter_unit.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/optimise/design_variable_keys.hpp"
 
@@ -29,7 +30,7 @@ DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& m
       entry.fail_found("parameter", "\"" + path + "\" in " + v.places.back().unit(),
                        "parameters that take the same values, in " + v.si_unit);
   }
-  const SiUnit unit = unit_called(v.si_unit);
+  const SiUnit unit = unit_of_parameters(mechanism, v.paths, v.si_unit);
   v.from = entry.value("from", unit);
   v.to = entry.value("to", unit);
   v.unit = entry.unit_as_written("from");

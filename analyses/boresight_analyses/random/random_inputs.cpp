@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "boresight/keys/parameter_unit.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/random/random_keys.hpp"
@@ -69,7 +70,8 @@ RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechan
   if (!radial) journals.clear();
   Cursor distribution = entry.table("distribution");
   const double nominal = random.places.front().get(nominal_parameters(mechanism));
-  random.distribution = read_distribution(distribution, unit_called(random.si_unit), journals, nominal);
+  random.distribution =
+      read_distribution(distribution, unit_of_parameters(mechanism, random.paths, random.si_unit), journals, nominal);
   random.unit = unit_of(distribution);
   check_ends(entry, random, accepts);
   return random;

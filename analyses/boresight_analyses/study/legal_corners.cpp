@@ -28,7 +28,8 @@ std::string as_written(const BoxSide& side, double value) {
   if (unit.empty())
     std::snprintf(text, sizeof text, "%.6g", value);
   else
-    std::snprintf(text, sizeof text, "%.6g %s", value / scale_of_unit(unit, unit_called(side.si_unit)), unit.c_str());
+    std::snprintf(text, sizeof text, "%.6g %s", value / scale_of_unit(unit, unit_called(side.si_unit, true)),
+                  unit.c_str());
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <set>
 
+#include "boresight/keys/parameter_unit.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/parameter_path.hpp"
 #include "boresight_analyses/sweep/paper_facts.hpp"
@@ -49,7 +50,7 @@ SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism) {
                       "parameters that take the same values, in " + result.si_unit);
   }
 
-  const SiUnit unit = unit_called(result.si_unit);
+  const SiUnit unit = unit_of_parameters(mechanism, result.parameters, result.si_unit);
   if (axis.has("values")) {
     for (const char* key : {"from", "to", "count", "scale"})
       if (axis.has(key)) axis.fail(key, "either values, or from, to and count");

@@ -47,7 +47,7 @@ std::string mechanism_of(const std::string& file) {
 bool says(const std::string& written, const NumberPath& n) {
   try {
     const double value =
-        n.unit == "1" ? std::strtod(written.c_str(), nullptr) : parse_quantity(written, unit_called(n.unit));
+        n.unit == "1" ? std::strtod(written.c_str(), nullptr) : parse_quantity(written, unit_called(n.unit, true));
     return std::abs(value - n.value) <= 1e-12 * std::abs(n.value);
   } catch (const ValueFault&) {
     return false;

@@ -70,7 +70,7 @@ std::string readable(double value, const std::string& si_unit) {
 
 DisplayUnit display_unit_as(const std::string& si_unit, double largest, const std::string& written) {
   if (written.empty()) return display_unit(si_unit, largest);
-  const double per_si = 1.0 / scale_of_unit(written, unit_called(si_unit));
+  const double per_si = 1.0 / scale_of_unit(written, unit_called(si_unit, true));
   const double shown = std::abs(largest) * per_si;
   constexpr double kFewZeros = 1e-3, kFewDigits = 1e5;
   if (shown != 0.0 && (shown < kFewZeros || shown >= kFewDigits)) return display_unit(si_unit, largest);

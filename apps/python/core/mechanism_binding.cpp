@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/keys/parameter_unit.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -66,7 +67,7 @@ double value_for(const Mechanism& mechanism, const std::string& path, const py::
     if (!py::isinstance<py::str>(value))
       number = value.cast<double>();
     else if (const auto text = value.cast<std::string>(); input.si_unit != "1")
-      number = parse_quantity(text, unit_called(input.si_unit));
+      number = parse_quantity(text, unit_of_parameters(mechanism.description(), {path}, input.si_unit));
     else if (!parse_number(text, number))
       throw ValueFault("\"" + text + "\"", "a number");
     check_value(input, number);

@@ -15,8 +15,9 @@ using namespace cursor;
 double Cursor::set_value(const Setting& set, const std::string& where, const SiUnit* unit) const {
   document_->record_written(where, set.value);
   try {
-    if (unit != nullptr) return parse_quantity(set.value, *unit);
     double value = 0.0;
+    if (unit != nullptr && takes_numbers(*unit) && parse_number(set.value, value)) return value;
+    if (unit != nullptr) return parse_quantity(set.value, *unit);
     if (!parse_number(set.value, value)) throw ValueFault(in_quotes(set.value), expected_value(unit));
     return value;
   } catch (const ValueFault& fault) {
@@ -29,7 +30,7 @@ double Cursor::element(const Node& node, const std::string& where, const SiUnit*
   const Origin here{document_->filename(), node.line};
   document_->record_written(where, node.text);
   const bool is_number = node.kind == Node::Kind::integer || node.kind == Node::Kind::number;
-  if (unit == nullptr) {
+  if (unit == nullptr || (is_number && takes_numbers(*unit))) {
     if (!is_number || !std::isfinite(node.number)) throw InputError(here, where, shown(node), "a number");
     return node.number;
   }

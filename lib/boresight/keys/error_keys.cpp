@@ -46,8 +46,8 @@ const KeyTable& error_keys() {
           value("value", "the error (a length, an angle or a difference of temperatures)")
               .usually("zero: the drawing itself")
               .says("How large the error is; studies scatter, sweep and allocate it. Of a drive it may be a number, of "
-                    "m or rad: a scale "
-                    "has no unit.")}};
+                    "m or rad. With a law in proportion to q it is a share, and may be written as one: \"250 ppm\", "
+                    "\"0.025 %\", 2.5e-4; studies write it so too.")}};
   return table_of_keys;
 }
 

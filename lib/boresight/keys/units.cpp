@@ -159,10 +159,14 @@ double convert(std::string_view unit_text, const SiUnit& expected, const std::st
     throw ValueFault(shown + " with the unknown unit " + in_quotes(unit_text), expectation(expected),
                      nearest_name(std::string(unit_text), kCommonUnits));
   }
-  const Unit* si = known_unit(expected.unit);
-  if (si == nullptr) throw ComputationError(std::string("UDUNITS-2 does not know the unit ") + expected.unit);
-  if (unit->powers != si->powers) throw ValueFault(shown, expectation(expected));
-  return unit->scale / si->scale;
+  for (std::string_view rest = expected.unit;;) {
+    const std::string_view one = rest.substr(0, rest.find('|'));
+    const Unit* si = known_unit(one);
+    if (si == nullptr) throw ComputationError("UDUNITS-2 does not know the unit " + std::string(one));
+    if (unit->powers == si->powers) return unit->scale / si->scale;
+    if (one.size() == rest.size()) throw ValueFault(shown, expectation(expected));
+    rest.remove_prefix(one.size() + 1);
+  }
 }
 
 }  // namespace
@@ -201,7 +205,11 @@ double parse_quantity(std::string_view text, const SiUnit& expected) {
   return value;
 }
 
-SiUnit unit_called(const std::string& si_unit) {
+bool takes_numbers(const SiUnit& unit) { return std::string_view(unit.unit).ends_with("|1"); }
+
+SiUnit unit_called(const std::string& si_unit, bool or_share) {
+  if (or_share && si_unit == kAngle.unit) return kShareOrAngle;
+  if (or_share && si_unit == kLength.unit) return kShareOrLength;
   static const SiUnit known[] = {kLength,  kMass,      kAcceleration, kSpeed, kElasticModulus,
                                  kDensity, kStiffness, kDamping,      kRatio};
   for (const SiUnit& unit : known)

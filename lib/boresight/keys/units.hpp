@@ -13,7 +13,7 @@
 
 namespace boresight {
 
-// What a value has to be: in words, its SI unit, and an example for the error text.
+// What a value has to be: in words, its SI unit (or two, "rad|1", of which either will do), and an example for the error text.
 struct SiUnit {
   const char* what;
   const char* unit;
@@ -40,9 +40,16 @@ inline constexpr SiUnit kPerSpeed{"a damping per normal force", "s/m", "10 s/m"}
 inline constexpr SiUnit kTemperature{"a difference of temperatures", "K", "5 K"};
 inline constexpr SiUnit kExpansion{"a coefficient of expansion", "1/K", "23.6e-6 1/K"};
 inline constexpr SiUnit kRatio{"a ratio", "1", "1 %"};
+// The scale of a drive: a share of what the drive does. It is measured in the drive's own unit, and may be written so.
+inline constexpr SiUnit kShareOrAngle{"a share or an angle", "rad|1", "250 ppm"};
+inline constexpr SiUnit kShareOrLength{"a share or a length", "m|1", "250 ppm"};
 
 // The one whose SI unit this is ("m", "kg", "m/s^2", ...), for values of a parameter. The result may point into `si_unit`.
-SiUnit unit_called(const std::string& si_unit);
+// or_share: of a scale.
+SiUnit unit_called(const std::string& si_unit, bool or_share = false);
+
+// Whether a plain number will do as well as a text: what is a share beside something else.
+bool takes_numbers(const SiUnit& unit);
 
 // "a length such as "0.1 mm"": the expectation in an error's text.
 std::string expectation(const SiUnit& unit);

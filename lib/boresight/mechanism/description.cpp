@@ -1,5 +1,7 @@
 #include "boresight/mechanism/description.hpp"
 
+#include <cmath>
+
 namespace boresight {
 
 const char* to_string(JointType type) {
@@ -34,6 +36,19 @@ const char* unit_of(const ErrorDescription& error, const std::vector<JointDescri
       return "K";
   }
   return "1";
+}
+
+bool is_scale(const ErrorDescription& error) {
+  if (error.kind != ErrorDescription::Kind::drive || !error.law) return false;
+  bool moves = false;
+  // At uneven places, so that no ripple passes for it.
+  for (const double t : {0.0, 0.317, 2.71}) {
+    const double slope = error.law->at({1.0, 0.0, 0.0}, t).value;
+    moves = moves || slope != 0.0;
+    for (const double q : {-1.7321, -0.3, 0.0, 0.2236, 2.236, 11.3})
+      if (!(std::abs(error.law->at({q, 0.0, 0.0}, t).value - slope * q) <= 1e-9 * std::abs(slope * q))) return false;
+  }
+  return moves;
 }
 
 }  // namespace boresight

@@ -171,6 +171,8 @@ struct ErrorDescription {
 
 // "m", "rad" or "K": what the error's value is measured in.
 const char* unit_of(const ErrorDescription& error, const std::vector<JointDescription>& joints);
+// Whether it is a share of what its drive does: its law is proportional to the drive's coordinate.
+bool is_scale(const ErrorDescription& error);
 
 struct MechanismDescription {
   std::string name;

@@ -213,6 +213,16 @@ std::vector<std::string> single_paths(const MechanismDescription& mechanism, con
   return single;
 }
 
+bool names_scales(const MechanismDescription& mechanism, const std::string& path) {
+  bool any = false;
+  for (const ErrorDescription& e : mechanism.errors) {
+    if (!matches(path, "error." + e.name)) continue;
+    if (!is_scale(e)) return false;
+    any = true;
+  }
+  return any;
+}
+
 Parameters nominal_parameters(const MechanismDescription& mechanism) {
   Parameters p;
   p.gravity = mechanism.gravity;

@@ -44,6 +44,9 @@ std::vector<std::string> parameter_paths(const MechanismDescription& mechanism);
 // The paths of one number each that a path with * stands for; of another one, itself. Throws as ParameterPath does.
 std::vector<std::string> single_paths(const MechanismDescription& mechanism, const std::string& path);
 
+// Whether all that the path names are scales of drives, whose values are shares: is_scale().
+bool names_scales(const MechanismDescription& mechanism, const std::string& path);
+
 // The parameters as the file gives them.
 Parameters nominal_parameters(const MechanismDescription& mechanism);
 

@@ -131,6 +131,20 @@ TEST_F(SweepPlanTest, TakesAValueThatIsLegalAtEveryPointThoughNotBesideTheFilesO
   EXPECT_EQ(p.points(), 4u);
 }
 
+TEST(SweepOfErrors, TakesTheScaleOfADriveAsAShare) {
+  const Mechanism mechanism(read_mechanism(BORESIGHT_EXAMPLES "/3-rrcpr/tolerances.toml"));
+  const auto values = [&](const std::string& parameter, const std::string& text) {
+    Document document = Document::from_text("[sweep]\n" + axis(parameter, text), "study.toml");
+    Cursor root(document);
+    return read_sweep_plan(root, mechanism.description(), [](const Setting&) {}).axes[0];
+  };
+  const SweepAxis shares = values("error.A1.scale", "\"100 ppm\", \"0.02 %\", 3e-4, \"4e-4 rad\"");
+  ASSERT_EQ(shares.values.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(shares.values[k], 1e-4 * static_cast<double>(k + 1), 1e-15);
+  EXPECT_EQ(shares.unit, "ppm");
+  EXPECT_THROW(values("error.A1.zero", "\"100 ppm\""), InputError);  // an angle
+}
+
 TEST_F(SweepPlanTest, RefusesAGridBeyondReason) {
   EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"payload.mass\"\nfrom = \"0 kg\"\nto = \"1 kg\"\ncount = 1000\n"
                     "[[sweep.axis]]\nparameter = \"clearance.F1.radial\"\nfrom = \"1 um\"\nto = \"1 mm\"\ncount = "

@@ -37,6 +37,7 @@ TEST(Readable, StaysInTheUnitThatTheUserWrote) {
   EXPECT_EQ(readable_as(2.5e-4, "m", ""), "0.25 mm");
   EXPECT_EQ(readable_as(2.5e-7, "m", "m"), "0.25 µm") << "0.00000025 m is for nobody";
   EXPECT_EQ(readable_as(INFINITY, "rad", "arcsec"), "not known");
+  EXPECT_EQ(readable_as(2.5e-4, "rad", "ppm"), "250 ppm");  // a scale
   EXPECT_DOUBLE_EQ(display_unit_as("rad", 1e-4, "arcsec").per_si * arcsec, 1.0);
 }
 

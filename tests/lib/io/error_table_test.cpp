@@ -86,6 +86,28 @@ rotation = [0, 0, 1])toml",
   EXPECT_EQ(p.body_center[0], Vec3(0.0, 0.25, 0.1));
 }
 
+// A scale is a share of what its drive does, and users write shares.
+TEST(ErrorTable, TakesTheScaleOfADriveAsAShare) {
+  const auto table = [](const std::string& law, const std::string& value) {
+    return "[[error]]\nname = \"P.scale\"\ndrive = \"P\"\nlaw = \"" + law + "\"\nvalue = " + value;
+  };
+  for (const char* value : {"\"250 ppm\"", "\"0.025 %\"", "2.5e-4", "\"2.5e-4 1\"", "\"0.25 mm\""})
+    for (const char* law : {"q", "q*cos(t)"})
+      EXPECT_NEAR(read_with(table(law, value)).errors[0].value, 2.5e-4, 1e-18) << value;
+  const MechanismDescription m = read_with(table("2*q", "\"1 ppm\""), {{"error.P.scale", "-30 ppm"}});
+  EXPECT_NEAR(m.errors[0].value, -30e-6, 1e-18);
+  EXPECT_TRUE(names_scales(m, "error.P.scale"));
+  EXPECT_TRUE(names_scales(m, "error.*"));
+  EXPECT_FALSE(names_scales(m, "payload.mass"));
+  // An offset or a ripple is a length: a share of what?
+  for (const char* law : {"1", "sin(2*pi*q/0.005)", "q + 1", "q^2", "0"}) {
+    EXPECT_THROW(read_with(table(law, "\"250 ppm\"")), InputError) << law;
+    EXPECT_FALSE(is_scale(read_with(table(law, "1e-6")).errors[0])) << law;
+  }
+  EXPECT_EQ(error_of(file_with(table("q", "\"1 kg\""))),
+            "f.toml:41: error.P.scale: found \"1 kg\", expected a share or a length such as \"250 ppm\"");
+}
+
 TEST(ErrorTable, IsRefusedInOneLineThatSaysWhy) {
   const auto refused = [](const std::string& table, const std::string& expected) {
     EXPECT_EQ(error_of(file_with("[[error]]\nname = \"e\"\n" + table)), "f.toml:" + expected);
