@@ -85,6 +85,8 @@ struct ErrorEstimate {
   PerQuantity model = {};       // by what the rung leaves out
   double discretisation = 0.0;  // by its steps or instants
   std::string basis;            // in words
+  // The share of its indices that the play makes, where a rung adds what standing errors displace to a bound of it; else all.
+  PerQuantity of_play = {1.0, 1.0, 1.0, 1.0};
 
   double model_of(PointingQuantity quantity) const { return model[static_cast<std::size_t>(quantity)]; }
   double largest_model() const { return *std::max_element(model.begin(), model.end()); }

@@ -1,5 +1,7 @@
 #include "boresight/statics/envelope.hpp"
 
+#include <algorithm>
+#include <array>
 #include <optional>
 
 #include "boresight/mechanism/error.hpp"
@@ -17,6 +19,9 @@ namespace boresight {
 namespace {
 
 using Gain = Eigen::Matrix<double, 3, 3>;
+
+constexpr std::array kIndices = {&PoseError::position, &PoseError::orientation, &PoseError::boresight,
+                                 &PoseError::line_of_sight};
 
 class Envelope final : public SceneRung {
  public:
@@ -43,6 +48,7 @@ class Envelope final : public SceneRung {
     std::optional<TiedRest> tied;
     if (reactions.tied()) tied.emplace(prepared, standing, parameters, reactions);
     TiedGaps gaps;
+    WhatErrorsAdd added(mechanism().pointing().line_of_sight.has_value(), options.start);
     long instants = 0;
     const auto bounded_at = [&](double t, const Bounded* before) {
       ++instants;
@@ -53,16 +59,18 @@ class Envelope final : public SceneRung {
       // What the errors displace is known, and not bounded: the play adds to it in the worst way.
       const Vec6 errors = standing.at(t, mechanism().boresight_body());
       if (standing) {
-        bounded.error.position += errors.head<3>().norm();
-        bounded.error.orientation += errors.tail<3>().norm();
-        bounded.error.boresight += (directions.across * errors.tail<3>()).norm();
-        bounded.error.line_of_sight += (directions.sight * errors).norm();
+        bounded.of_errors.position = errors.head<3>().norm();
+        bounded.of_errors.orientation = errors.tail<3>().norm();
+        bounded.of_errors.boresight = (directions.across * errors.tail<3>()).norm();
+        bounded.of_errors.line_of_sight = (directions.sight * errors).norm();
+        for (const auto index : kIndices) bounded.error.*index += bounded.of_errors.*index;
       }
       bounded.error.displacement = now.pose_gain.topRows<3>() * bounded.worst_z + errors.head<3>();
       bounded.error.rotation = now.pose_gain.bottomRows<3>() * bounded.worst_z + errors.tail<3>();
       return bounded;
     };
     const auto record = [&](const Bounded& bounded) {
+      if (standing) added.note(bounded);
       contacts.note(bounded.time, bounded.rest);
       const DisplacedBodies displaced(prepared, standing, bounded.time, bounded.worst_z);
       BodyAcceleration acceleration;
@@ -90,6 +98,7 @@ class Envelope final : public SceneRung {
     seeker.finish();
     RunResult result = recorder.finish();
     result.interrupted = interrupted;
+    if (standing) added.state(result);
     result.integrator = "none: the worst offset an instant";
     result.contact = contacts.finish();
     result.cost.steps = result.cost.evaluations = instants;
@@ -115,18 +124,53 @@ class Envelope final : public SceneRung {
   // The bound at one instant.
   struct Bounded {
     double time;
-    PoseError error;  // the bound of each index
+    PoseError error;      // the bound of each index
+    PoseError of_errors;  // of that, what standing errors make; indices alone
     std::vector<RestingPlay> rest,
         worst;        // per joint: where it rests, and the place that stands for its worst one in the pictures
     VecX z, worst_z;  // the same in coordinates; z where joints are tied
     double t() const { return time; }
   };
 
+  // What a bound cannot know beside standing errors: whether the play adds to them or takes from them. Of an index that errors make e of and
+  // the play up to p of, the truth is between |e - p| and e + p.
+  class WhatErrorsAdd {
+   public:
+    WhatErrorsAdd(bool sighted, double start) : play_(sighted, start), taken_(sighted, start) {}
+
+    void note(const Bounded& bounded) {
+      PoseError play, taken;
+      for (const auto index : kIndices) {
+        play.*index = bounded.error.*index - bounded.of_errors.*index;
+        taken.*index = 2.0 * std::min(play.*index, bounded.of_errors.*index);
+      }
+      play_.add(bounded.time, play);
+      taken_.add(bounded.time, taken);
+    }
+    void state(RunResult& result) const {
+      const PointingIndices play = play_.result(), taken = taken_.result();
+      for (int k = 0; k < kPointingQuantities; ++k) {
+        const auto quantity = static_cast<PointingQuantity>(k);
+        double of_play = 0.0, unknown = 0.0;
+        for (const auto statistic : {&Statistics::max, &Statistics::rms, &Statistics::mean})
+          if (const double whole = result.index.of(quantity).*statistic; whole > 0.0) {
+            of_play = std::max(of_play, play.of(quantity).*statistic / whole);
+            unknown = std::max(unknown, taken.of(quantity).*statistic / whole);
+          }
+        result.error.of_play[static_cast<std::size_t>(k)] = std::min(1.0, of_play);
+        result.error.model[static_cast<std::size_t>(k)] += unknown;
+      }
+    }
+
+   private:
+    IndicesOverTime play_, taken_;
+  };
+
   // Joints added up as if all were worst at once.
   static Bounded bound_of_each(const ReactionTable& reactions, const ReactionTable::Instant& now,
                                const Directions& directions, const Bounded* before) {
     const std::vector<JointPlay>& joints = reactions.joints();
-    Bounded bounded{now.t, {}, {}, std::vector<RestingPlay>(joints.size()), {}, {}};
+    Bounded bounded{now.t, {}, {}, {}, std::vector<RestingPlay>(joints.size()), {}, {}};
     PoseError& bound = bounded.error;
     for (std::size_t c = 0; c < joints.size(); ++c) {
       bounded.rest.push_back(
@@ -162,7 +206,8 @@ class Envelope final : public SceneRung {
     const std::vector<JointPlay>& joints = reactions.joints();
     const TiedRest::Rest was = before ? TiedRest::Rest{before->z, before->rest} : TiedRest::Rest{};
     TiedRest::Rest rest = tied.at(now, before ? &was : nullptr);
-    Bounded bounded{now.t, {}, std::move(rest.joint), std::vector<RestingPlay>(joints.size()), std::move(rest.z), {}};
+    Bounded bounded{now.t, {}, {}, std::move(rest.joint), std::vector<RestingPlay>(joints.size()), std::move(rest.z),
+                    {}};
     gaps.take(tied.balance(), bounded.rest);
     const TiedGaps::Gain moves = now.pose_gain.topRows<3>(), turns = now.pose_gain.bottomRows<3>();
     bounded.error.orientation = gaps.bound(turns, 0);

@@ -149,6 +149,7 @@ struct Measured {
       {};             // what the dynamic rung states for its own model, relative: both are linear in the offsets
   double bent = 0.0;  // the largest of these, of what is more than next to nothing
   bool keeps = true;  // false: its caller wanted it to stop
+  bool found = true;  // false: it could not be measured
   std::int64_t evaluations = 0;  // of the dynamic rung, for it
 };
 
@@ -176,9 +177,14 @@ class MeasuredByDynamics final : public Rung {
     const Measured measured = measure(parameters, options, cost);
     const ErrorEstimate of_errors = result.error;
     result.error = measured.error;
+    result.error.of_play = of_errors.of_play;
     // With errors both rungs are linear in them, and the dynamic one's statement has been taken in.
     if (bounds_)
-      for (int k = 0; k < kPointingQuantities; ++k) result.error.model[k] += of_errors.model[k];
+      for (int k = 0; k < kPointingQuantities; ++k) {
+        // Of the bound of the play, which alone was measured.
+        if (measured.found) result.error.model[k] *= of_errors.of_play[k];
+        result.error.model[k] += of_errors.model[k];
+      }
     if (!of_errors.basis.empty()) result.error.basis += "; " + of_errors.basis;
     result.cost.cpu_seconds += cost.cpu_seconds;
     result.cost.wall_seconds += cost.wall_seconds;
@@ -242,7 +248,8 @@ class MeasuredByDynamics final : public Rung {
   }
 
   static Measured not_measured(const std::string& why, bool keeps = true) {
-    return {{all_of_it(), kNotMeasured, "not measured, so anything up to the whole: " + why}, 0.0, {}, 0.0, keeps};
+    return {
+        {all_of_it(), kNotMeasured, "not measured, so anything up to the whole: " + why}, 0.0, {}, 0.0, keeps, false};
   }
 
   Measured against_dynamics(const Parameters& parameters, const RunOptions& asked, const PointingIndices& index,
