@@ -39,16 +39,53 @@ double displacement_of(const IndexChoice& index, const Mechanism& mechanism) {
 
 }  // namespace
 
-// Of what the lanes keep: the deviation over the mechanism's size, times how much the mechanism magnifies its offsets; and what being
-// linear in standing errors misses besides. These displace the pose beside the play, however far: that magnifies no offset.
-double LaneSampleModel::nonlinearity(const Parameters& parameters, const LaneOutcome& found) const {
+// Of what the lanes keep: the deviation over the mechanism's size, times how much the mechanism magnifies its offsets. Standing errors
+// displace the pose beside the play, however far: that magnifies no offset.
+double LaneSampleModel::nonlinearity_of_play(const Parameters& parameters, const LaneOutcome& found) const {
   const double unit = displacement_of(index_, *mechanism_);
   const double deviation = found.max * unit / mechanism_->characteristic_length();
   double offset = 0.0;
   for (const ClearanceParameters& c : parameters.clearance) offset = std::max(offset, widest_gap(c));
   offset += found.max_penetration;
-  const double of_play = offset > 0.0 ? deviation * std::max(1.0, found.max_of_play * unit / offset) : 0.0;
-  return of_play + lanes_.error_of_linearity(parameters, found.max);
+  return offset > 0.0 ? deviation * std::max(1.0, found.max_of_play * unit / offset) : 0.0;
+}
+
+// So is what a sample's model misses of its play, or more where the rung itself knows of more; and what being linear in standing errors
+// misses besides.
+double LaneSampleModel::nonlinearity(const Parameters& parameters, const LaneOutcome& found) const {
+  const double of_play = nonlinearity_of_play(parameters, found);
+  const double as_the_rung = std::min(1.0, times_.value_or(1.0) * of_play);
+  return std::max(of_play, as_the_rung) + lanes_.error_of_linearity(parameters, found.max);
+}
+
+// How much more than that, as a factor, the rung finds that it misses of the file's own motion without standing errors, where it follows what
+// pushes the motion besides: lanes cannot look at this sample by sample. 1 where the rung cannot follow that motion, or not in reasonable
+// time.
+double LaneSampleModel::times_nonlinearity(const std::atomic<bool>& stop) const {
+  constexpr int kMostLooks = 1000;  // steps are bounded so, at some thousand a look
+  const std::scoped_lock lock(mutex_);
+  if (times_) return *times_;
+  Parameters drawn = mechanism_->parameters();
+  std::fill(drawn.error.begin(), drawn.error.end(), 0.0);
+  int looks = 0;
+  RunOptions options;
+  options.start = index_.start;
+  options.sample_spacing = 0.0;
+  options.events = false;
+  options.progress = [&](const RunProgress&) { return !stop && ++looks <= kMostLooks; };
+  double times = 1.0;
+  try {
+    const RunResult result = make_rung("perturbation", mechanism_)->run(drawn, options);
+    LaneOutcome found;
+    found.max = found.max_of_play = result.index.of(index_.kind()).max;
+    for (const ContactSummary& contact : result.contact)
+      found.max_penetration = std::max(found.max_penetration, contact.max_penetration);
+    const double of_play = nonlinearity_of_play(drawn, found);
+    if (!result.interrupted && of_play > 0.0) times = std::max(1.0, result.error.model_of(index_.kind()) / of_play);
+  } catch (const ComputationError&) {
+  }
+  if (!stop) times_ = times;
+  return times;
 }
 
 std::string LaneSampleModel::leaves_out() const { return make_rung("perturbation", mechanism_)->leaves_out(); }
@@ -85,6 +122,11 @@ void LaneSampleModel::evaluate_each(std::span<const Sample> samples, std::span<O
                                     const std::atomic<bool>& stop,
                                     const std::function<void(std::size_t)>& reached) const {
   if (stop) return;
+  try {
+    times_nonlinearity(stop);
+  } catch (const Interrupted&) {
+    return;
+  }
   const double start = thread_cpu_seconds();
   std::vector<Parameters> parameters;
   for (const Sample& sample : samples) parameters.push_back(parameters_of_(sample.values));

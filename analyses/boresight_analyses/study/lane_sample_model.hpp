@@ -3,6 +3,9 @@
 // steps, so there is no step for all samples to share.
 #pragma once
 
+#include <mutex>
+#include <optional>
+
 #include "boresight/lanes/perturbation_lanes.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 
@@ -32,6 +35,8 @@ class LaneSampleModel final : public SampleModel {
  private:
   void take(const LaneOutcome& found, const Parameters& parameters, double seconds_per_attempt, Outcome& outcome) const;
   double nonlinearity(const Parameters& parameters, const LaneOutcome& found) const;
+  double nonlinearity_of_play(const Parameters& parameters, const LaneOutcome& found) const;
+  double times_nonlinearity(const std::atomic<bool>& stop) const;
 
   std::shared_ptr<const Mechanism> mechanism_;
   RungSampleModel::ParametersOf parameters_of_;
@@ -39,6 +44,8 @@ class LaneSampleModel final : public SampleModel {
   bool scene_varies_;
   PerturbationLanes lanes_;
   double tolerance_;
+  mutable std::mutex mutex_;
+  mutable std::optional<double> times_;  // times_nonlinearity(), once it is known
 };
 
 // The model of a rung's samples: pure geometry where there is no play, lanes where they serve, at the tolerance of the options if they
