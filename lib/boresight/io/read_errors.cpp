@@ -165,7 +165,7 @@ ErrorDescription read_error(Cursor& cursor, const MechanismDescription& so_far) 
         require_continuous(cursor, "law", cursor.text("law"), along, so_far.motion.duration);
       }
       if (joint.type != JointType::prismatic) range = kFrameTurnRange;
-      range.unit = unit_called(range.unit.unit, is_scale(error));
+      if (is_scale(error)) range.unit = joint.type == JointType::prismatic ? kShareOrLength : kShareOrAngle;
       break;
     }
     case Kind::expansion:

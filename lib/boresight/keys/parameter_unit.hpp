@@ -16,5 +16,6 @@ inline SiUnit unit_of_parameters(const MechanismDescription& mechanism, const st
   for (const std::string& path : paths) scales = scales && names_scales(mechanism, path);
   return unit_called(si_unit, scales);
 }
+SiUnit unit_of_parameters(const MechanismDescription&, const std::vector<std::string>&, std::string&&) = delete;
 
 }  // namespace boresight

@@ -207,14 +207,15 @@ double parse_quantity(std::string_view text, const SiUnit& expected) {
 
 bool takes_numbers(const SiUnit& unit) { return std::string_view(unit.unit).ends_with("|1"); }
 
-SiUnit unit_called(const std::string& si_unit, bool or_share) {
-  if (or_share && si_unit == kAngle.unit) return kShareOrAngle;
-  if (or_share && si_unit == kLength.unit) return kShareOrLength;
+SiUnit unit_called(const char* si_unit, bool or_share) {
+  const std::string_view called = si_unit;
+  if (or_share && called == kAngle.unit) return kShareOrAngle;
+  if (or_share && called == kLength.unit) return kShareOrLength;
   static const SiUnit known[] = {kLength,  kMass,      kAcceleration, kSpeed, kElasticModulus,
                                  kDensity, kStiffness, kDamping,      kRatio};
   for (const SiUnit& unit : known)
-    if (si_unit == unit.unit) return unit;
-  return {"a value", si_unit.c_str(), si_unit.c_str()};
+    if (called == unit.unit) return unit;
+  return {"a value", si_unit, si_unit};
 }
 
 }  // namespace boresight

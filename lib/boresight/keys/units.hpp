@@ -46,7 +46,11 @@ inline constexpr SiUnit kShareOrLength{"a share or a length", "m|1", "250 ppm"};
 
 // The one whose SI unit this is ("m", "kg", "m/s^2", ...), for values of a parameter. The result may point into `si_unit`.
 // or_share: of a scale.
-SiUnit unit_called(const std::string& si_unit, bool or_share = false);
+SiUnit unit_called(const char* si_unit, bool or_share = false);
+inline SiUnit unit_called(const std::string& si_unit, bool or_share = false) {
+  return unit_called(si_unit.c_str(), or_share);
+}
+SiUnit unit_called(std::string&&, bool or_share = false) = delete;  // nothing would be left to point into
 
 // Whether a plain number will do as well as a text: what is a share beside something else.
 bool takes_numbers(const SiUnit& unit);

@@ -132,7 +132,7 @@ TEST_F(RowsInputs, AreRefusedWhereTheyDoNotFit) {
   Document study = document("distribution = { rows = { file = \"" + name_ + "\" } }\n");
   Cursor root(study);
   Cursor alone = root.table("distribution");
-  EXPECT_THROW(read_distribution(alone, unit_called("m")), InputError);  // of a budget's contributor, of a prior
+  EXPECT_THROW(read_distribution(alone, kLength), InputError);  // of a budget's contributor, of a prior
   EXPECT_THAT(fault(random("") + "[[correlation]]\n" + kTwo + "coefficient = 0.5\n"), HasSubstr("a table's rows"));
 }
 
