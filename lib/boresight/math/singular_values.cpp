@@ -8,14 +8,18 @@
 
 namespace boresight {
 
-// Eigen's decompositions read beyond a matrix that is empty.
+// By Jacobi's rotations: the divide-and-conquer of Eigen 3.4.0 (BDCSVD), two to four times as fast, gives vectors of no null space and values
+// off by 1e-5 once in a hundred matrices of the rows of parallel joints, whose singular values repeat. Eigen's decompositions read beyond
+// a matrix that is empty.
 SingularValues singular_decomposition(const MatX& A) {
   if (A.size() == 0) return {VecX(0), MatX::Identity(A.cols(), A.cols())};
-  const Eigen::BDCSVD<MatX> svd(A, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<MatX> svd(A, Eigen::ComputeFullV);
   return {svd.singularValues(), svd.matrixV()};
 }
 
-VecX singular_values(const MatX& A) { return A.size() == 0 ? VecX(0) : VecX(Eigen::BDCSVD<MatX>(A).singularValues()); }
+VecX singular_values(const MatX& A) {
+  return A.size() == 0 ? VecX(0) : VecX(Eigen::JacobiSVD<MatX>(A).singularValues());
+}
 
 RankBounds rank_bounds(const MatX& A, double threshold) {
   if (A.size() == 0) return {0, std::numeric_limits<double>::infinity(), 0.0};

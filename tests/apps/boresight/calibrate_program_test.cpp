@@ -105,7 +105,10 @@ TEST_F(CalibrateProgram, AnImpossibleReadingIsNamedAndMovesNothing) {
     if (name.starts_with("clearance.")) {
       EXPECT_NEAR(spoilt["standard_error"][name].get<double>(), sd, 0.05 * sd) << name;
     }
-    EXPECT_NEAR(spoilt["optimum"][name].get<double>(), clean["optimum"][name].get<double>(), 0.5 * sd) << name;
+    // A mass that is fitted beside: its optimum is one of several that jumps of the motion leave, about half its error apart; a reading that changes
+    // by a ten-thousandth of itself leads to another one too.
+    const double share = name.starts_with("body.") ? 1.0 : 0.5;
+    EXPECT_NEAR(spoilt["optimum"][name].get<double>(), clean["optimum"][name].get<double>(), share * sd) << name;
   }
 }
 
