@@ -50,12 +50,17 @@ double LaneSampleModel::nonlinearity_of_play(const Parameters& parameters, const
   return offset > 0.0 ? deviation * std::max(1.0, found.max_of_play * unit / offset) : 0.0;
 }
 
-// So is what a sample's model misses of its play, or more where the rung itself knows of more; and what being linear in standing errors
-// misses besides.
+// So is what a sample's model misses of its play, or more where the rung itself knows of more of what the play alone does; and what being
+// linear in standing errors misses besides.
 double LaneSampleModel::nonlinearity(const Parameters& parameters, const LaneOutcome& found) const {
-  const double of_play = nonlinearity_of_play(parameters, found);
-  const double as_the_rung = std::min(1.0, times_.value_or(1.0) * of_play);
-  return std::max(of_play, as_the_rung) + lanes_.error_of_linearity(parameters, found.max);
+  double of_play = nonlinearity_of_play(parameters, found);
+  if (times_ && found.max > 0.0) {
+    LaneOutcome alone = found;
+    alone.max = found.max_of_play;
+    const double share = std::min(1.0, found.max_of_play / found.max);
+    of_play = std::max(of_play, share * std::min(1.0, *times_ * nonlinearity_of_play(parameters, alone)));
+  }
+  return of_play + lanes_.error_of_linearity(parameters, found.max);
 }
 
 // How much more than that, as a factor, the rung finds that it misses of the file's own motion without standing errors, where it follows what
