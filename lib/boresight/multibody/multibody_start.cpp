@@ -1,5 +1,6 @@
 #include "boresight/multibody/multibody_start.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -16,8 +17,8 @@ namespace {
 
 // Steps of the journals, over their clearances: shorter ones are rounding.
 constexpr double kRounding = 1e-12;
-// Where the pose bends much they shrink slowly, by a quarter or less each: as long as they shrink they lead there. Some that do not are
-// rounding, or a way around.
+// Where the pose bends much they shrink slowly, by a quarter or less each: as long as they shrink, or what is left unbalanced does, they lead
+// there. Some that do not are rounding, or a way around.
 constexpr int kMostSteps = 400, kMostIdle = 6;
 constexpr double kShrinks = 0.98;
 // A step this many times the shortest leads away.
@@ -103,6 +104,7 @@ class ExactBalance {
     return balance_.falls(stiffness());
   }
   double length(const VecX& dz) const { return balance_.length(dz); }
+  double size(const VecX& load) const { return balance_.size(load); }
   const MatX& unit() const { return balance_.unit(); }
   VecX step(const MatX& by_z, const VecX& left) const { return balance_.correction(by_z, left); }
 
@@ -127,12 +129,14 @@ class ExactBalance {
 double rest_nearly_linear(ExactBalance& exact, VecX& z) {
   VecX at = z;
   // What no place of the journals balances is left to the motion: steps are judged by their length.
-  double least = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), lightest = least;
   int idle = 0;
   for (int step = 0; step < kMostSteps && idle < kMostIdle; ++step) {
     const VecX left = exact.left(at), dz = exact.step(exact.stiffness(), left);
     const double length = exact.length(dz);
-    idle = length < kShrinks * least ? 0 : idle + 1;
+    const double load = exact.size(left);
+    idle = length < kShrinks * least || load < kShrinks * lightest ? 0 : idle + 1;
+    lightest = std::min(lightest, load);
     if (length < least) {
       least = length;
       z = at;
