@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <memory>
 
@@ -19,8 +20,11 @@ namespace {
 constexpr double kRounding = 1e-12;
 // Where the pose bends much they shrink slowly, by a quarter or less each: as long as they shrink, or what is left unbalanced does, they lead
 // there. Some that do not are rounding, or a way around.
-constexpr int kMostSteps = 400, kMostIdle = 6;
+constexpr int kMostSteps = 400, kMostIdle = 20, kMostIdleOfSettled = 6;
 constexpr double kShrinks = 0.98;
+// A step that leaves more unbalanced than each of the last few did is halved, so often at most.
+constexpr int kMostHalvings = 6;
+constexpr std::size_t kLastLoads = 3;
 // A step this many times the shortest leads away.
 constexpr double kAstray = 100.0;
 
@@ -127,14 +131,14 @@ class ExactBalance {
 // Newton's method with the offsets' own stiffness: a few steps, where the pose is all but linear in the offsets. Returns the length of
 // the shortest step.
 double rest_nearly_linear(ExactBalance& exact, VecX& z) {
-  VecX at = z;
+  VecX at = z, left = exact.left(at);
   // What no place of the journals balances is left to the motion: steps are judged by their length.
   double least = std::numeric_limits<double>::infinity(), lightest = least;
   int idle = 0;
-  for (int step = 0; step < kMostSteps && idle < kMostIdle; ++step) {
-    const VecX left = exact.left(at), dz = exact.step(exact.stiffness(), left);
-    const double length = exact.length(dz);
-    const double load = exact.size(left);
+  std::deque<double> last = {exact.size(left)};
+  for (int step = 0; step < kMostSteps && idle < (least <= kSettledRest ? kMostIdleOfSettled : kMostIdle); ++step) {
+    const VecX dz = exact.step(exact.stiffness(), left);
+    const double length = exact.length(dz), load = exact.size(left);
     idle = length < kShrinks * least || load < kShrinks * lightest ? 0 : idle + 1;
     lightest = std::min(lightest, load);
     if (length < least) {
@@ -142,7 +146,18 @@ double rest_nearly_linear(ExactBalance& exact, VecX& z) {
       z = at;
     }
     if (length <= kRounding || !(length < kAstray * least)) break;
-    at += dz;
+    // Along its sleeve's wall a light load holds a journal so softly that a step leads off the wall, or into it.
+    const double most = *std::max_element(last.begin(), last.end());
+    double share = 1.0;
+    left = exact.left(at + dz);
+    for (int halved = 0; halved < kMostHalvings && exact.size(left) > most; ++halved) {
+      share *= 0.5;
+      left = exact.left(at + share * dz);
+    }
+    if (exact.size(left) > most && share < 1.0) left = exact.left(at + (share = 1.0) * dz);
+    at += share * dz;
+    last.push_back(exact.size(left));
+    if (last.size() > kLastLoads) last.pop_front();
   }
   return least;
 }

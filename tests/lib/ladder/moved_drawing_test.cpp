@@ -4,6 +4,7 @@
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
+#include "boresight/multibody/multibody_start.hpp"
 #include "scenes.hpp"
 #include "tree_formulation_scenes.hpp"
 
@@ -63,6 +64,32 @@ TEST(MovedDrawing, ChangesNoIndex) {
                  std::string(rung) + ", a kilometre");
     const Mat3 turn = Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
     expect_equal(own, indices(placed(here, turn, {0.1, 0.2, 0.3}), rung), 1e-6, std::string(rung) + ", turned");
+  }
+}
+
+// A journal that next to nothing presses into a stiff sleeve: what holds it along the sleeve's wall is its load over the clearance, a ten-millionth
+// of what the contact holds it with across the wall. Where it starts is known all the same.
+TEST(MovedDrawing, ChangesNoStartUnderALightLoad) {
+  MechanismDescription here = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/planar.toml",
+                                             {{"motion.drives.A", "2.6e-4*sin(158*t)"}});
+  here.gravity.setZero();
+  here.line_of_sight = {.from = Vec3::Zero(), .target = Vec3::UnitX(), .origin = {}};
+  const auto displaced = [](const MechanismDescription& d) {
+    const Mechanism mechanism(d);
+    const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
+    IdealState start;
+    ideal.state(0.0, start);
+    const RestingBodies rest = resting_bodies(mechanism, mechanism.parameters(), ideal);
+    EXPECT_EQ(rest.refusal, "");
+    VecX by(mechanism.bodies());
+    for (int b = 0; b < mechanism.bodies(); ++b) by[b] = (rest.exact.at(b).p - start.bodies[b].p).norm();
+    return by;
+  };
+  const VecX own = displaced(here);
+  EXPECT_GT(own.norm(), 1e-5);
+  for (const double angle : {0.3, 1.1, 2.1, 4.0}) {
+    const Mat3 turn = Eigen::AngleAxisd(angle, Vec3(0.3, -0.8, 0.5).normalized()).toRotationMatrix();
+    EXPECT_LT((displaced(placed(here, turn, Vec3::Zero())) - own).norm(), 1e-8 * own.norm()) << angle;
   }
 }
 
