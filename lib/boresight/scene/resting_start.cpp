@@ -321,23 +321,31 @@ RestingStart RestingBalance::solve() const {
   double size_left = descend(z, 0.0);
   if (at_.tips) size_left = off_the_saddle(z, size_left);
   if (size_left > kAcceptableLoad * load_ || !z.allFinite()) {
-    rest.z = guess();
-    const double length = search_rest([&](const VecX& at) { return left(at); }, unit_, rest.z);
-    if (rest.z.allFinite()) {
+    // Whether journals rest there, but for what no place of theirs balances and is left to the motion; then as near to the ideal motion as that
+    // allows.
+    const auto rests = [&](double step) {
+      if (!rest.z.allFinite()) return false;
       const double remains = size(left(rest.z));
-      if (remains <= kAcceptableLoad * load_ || (length <= kSettledRest && remains <= kLeftToMotion * load_)) {
-        if (!settle(rest.z) && remains > kAcceptableLoad * load_) shorten(rest.z, kAsBefore * remains, kSoftBeside);
-        rest.z = completed(rest.z);
-        return rest;
-      }
-    }
+      if (remains > kAcceptableLoad * load_ && !(step <= kSettledRest && remains <= kLeftToMotion * load_))
+        return false;
+      if (!settle(rest.z) && remains > kAcceptableLoad * load_) shorten(rest.z, kAsBefore * remains, kSoftBeside);
+      rest.z = completed(rest.z);
+      return true;
+    };
+    const auto step_at = [&] {
+      VecX F(n);
+      MatX J(n, n);
+      evaluate(rest.z, F, J);
+      return length(correction(J, F));
+    };
+    rest.z = guess();
+    if (rests(search_rest([&](const VecX& at) { return left(at); }, unit_, rest.z))) return rest;
+    rest.z = z;
+    if (z.allFinite() && rests(step_at())) return rest;
     // Contacts that take turns lead both in circles, and the energy does not.
     rest.z.setZero();
-    if (descend(rest.z, 0.0, true) <= kAcceptableLoad * load_) {
-      settle(rest.z);
-      rest.z = completed(rest.z);
-      return rest;
-    }
+    descend(rest.z, 0.0, true);
+    if (rest.z.allFinite() && rests(step_at())) return rest;
     rest.z.setZero();
     rest.refusal =
         "no position was found in which the " + parts_in_play(joints_).inserts + "' contacts carry the loads of t = 0";
