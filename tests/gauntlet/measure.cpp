@@ -112,7 +112,11 @@ Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& ask
   options.progress = [most_seconds](const RunProgress&) {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC < most_seconds;
   };
-  const RunResult r = make_rung(asked.rung, mechanism)->run(mechanism->parameters(), options);
+  Parameters parameters = mechanism->parameters();
+  parameters.gravity *= 1.0 + asked.rounding;
+  for (ClearanceParameters& c : parameters.clearance)
+    for (double* gap : {&c.radial, &c.axial, &c.width_gap, &c.height_gap}) *gap *= 1.0 + asked.rounding;
+  const RunResult r = make_rung(asked.rung, mechanism)->run(parameters, options);
   if (r.interrupted) throw ComputationError("longer than the limit, ended when asked to");
   std::string start;
   for (const std::string& warning : r.warnings)

@@ -21,6 +21,7 @@ struct Asked {
   double step = 0.0;
   double start_offset = 0.0;
   double tolerance = 0.0;
+  double rounding = 0.0;  // share by which gravity and the gaps are larger than drawn
   std::string label() const {
     return rung + (formulation.empty() ? "" : " " + formulation) + (integrator.empty() ? "" : " " + integrator);
   }

@@ -22,6 +22,8 @@ constexpr double kRounding = 1e-12;
 // there. Some that do not are rounding, or a way around.
 constexpr int kMostSteps = 400, kMostIdle = 20, kMostIdleOfSettled = 6;
 constexpr double kShrinks = 0.98;
+// What contacts carry of the loads where journals rest: all but this share, or no load at all.
+constexpr double kCarried = 0.1;
 // A step that leaves more unbalanced than each of the last few did is halved, so often at most.
 constexpr int kMostHalvings = 6;
 constexpr std::size_t kLastLoads = 3;
@@ -109,6 +111,7 @@ class ExactBalance {
   }
   double length(const VecX& dz) const { return balance_.length(dz); }
   double size(const VecX& load) const { return balance_.size(load); }
+  double load() const { return balance_.load(); }
   const MatX& unit() const { return balance_.unit(); }
   VecX step(const MatX& by_z, const VecX& left) const { return balance_.correction(by_z, left); }
 
@@ -137,15 +140,18 @@ double rest_nearly_linear(ExactBalance& exact, VecX& z) {
   int idle = 0;
   std::deque<double> last = {exact.size(left)};
   for (int step = 0; step < kMostSteps && idle < (least <= kSettledRest ? kMostIdleOfSettled : kMostIdle); ++step) {
-    const VecX dz = exact.step(exact.stiffness(), left);
+    VecX dz = exact.step(exact.stiffness(), left);
     const double length = exact.length(dz), load = exact.size(left);
-    idle = length < kShrinks * least || load < kShrinks * lightest ? 0 : idle + 1;
+    if (length > 1.0) dz /= length;  // beyond their clearances at once the contacts are others
+    // Where contacts are open no step helps, and that is no rest.
+    const bool carried = load <= kCarried * exact.load();
+    idle = (carried && length < kShrinks * least) || load < kShrinks * lightest ? 0 : idle + 1;
     lightest = std::min(lightest, load);
-    if (length < least) {
+    if (carried && length < least) {
       least = length;
       z = at;
     }
-    if (length <= kRounding || !(length < kAstray * least)) break;
+    if ((carried && length <= kRounding) || !(length < kAstray * least)) break;
     // Along its sleeve's wall a light load holds a journal so softly that a step leads off the wall, or into it.
     const double most = *std::max_element(last.begin(), last.end());
     double share = 1.0;
