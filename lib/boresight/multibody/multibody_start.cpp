@@ -144,7 +144,7 @@ double rest_nearly_linear(ExactBalance& exact, VecX& z) {
     const double length = exact.length(dz), load = exact.size(left);
     if (length > 1.0) dz /= length;  // beyond their clearances at once the contacts are others
     // Where contacts are open no step helps, and that is no rest.
-    const bool carried = load <= kCarried * exact.load();
+    const bool carried = load <= kCarried * exact.load() || !(exact.load() > 0.0);
     idle = (carried && length < kShrinks * least) || load < kShrinks * lightest ? 0 : idle + 1;
     lightest = std::min(lightest, load);
     if (carried && length < least) {
