@@ -32,6 +32,21 @@ inline ErrorDescription drive_error(const MechanismDescription& m, const std::st
 
 // All errors that a mechanism can have: every joint's frame in both its bodies along and about all axes, every drive by three laws,
 // every body and the ground growing.
+// Where a mechanism has no errors of its own: its first joints displaced in their second bodies by so much [m], in turns to either side.
+inline MechanismDescription with_joints_off(MechanismDescription m, double length) {
+  for (std::size_t j = 0; m.errors.size() < 4 && j < m.joints.size(); ++j) {
+    ErrorDescription e;
+    e.name = m.joints[j].name + ".off";
+    e.joint = static_cast<int>(j);
+    e.body = m.joints[j].second;
+    e.direction = j % 2 == 0 ? Vec3(0.8, 0.0, 0.6) : Vec3(0.6, 0.0, -0.8);
+    m.errors.push_back(e);
+  }
+  for (std::size_t e = 0; e < m.errors.size(); ++e)
+    if (unit_of(m.errors[e], m.joints) == std::string("m")) m.errors[e].value = e % 2 == 0 ? length : -length;
+  return m;
+}
+
 inline MechanismDescription with_every_error(MechanismDescription m) {
   const std::vector<JointDescription> joints = m.joints;
   const auto name_of = [&](int body) { return body == kGround ? std::string("ground") : m.bodies[body].name; };

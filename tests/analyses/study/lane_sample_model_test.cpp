@@ -7,6 +7,7 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
+#include "error_scenes.hpp"
 
 namespace boresight {
 namespace lane_sample_model_test {
@@ -17,21 +18,9 @@ struct Built {
   Parameters parameters;
 
   Built(const std::string& file, const std::string& duration, double length) {
-    MechanismDescription m = read_mechanism(BORESIGHT_EXAMPLES "/" + file, {{"motion.duration", duration}});
-    for (std::size_t j = 0; m.errors.size() < 4 && j < m.joints.size(); ++j) {
-      ErrorDescription e;
-      e.name = m.joints[j].name + ".off";
-      e.joint = static_cast<int>(j);
-      e.body = m.joints[j].second;
-      e.direction = j % 2 == 0 ? Vec3(0.8, 0.0, 0.6) : Vec3(0.6, 0.0, -0.8);
-      m.errors.push_back(e);
-    }
-    mechanism = std::make_shared<const Mechanism>(m);
+    mechanism = scenes::build(scenes::with_joints_off(
+        read_mechanism(BORESIGHT_EXAMPLES "/" + file, {{"motion.duration", duration}}), length));
     parameters = mechanism->parameters();
-    for (std::size_t e = 0; e < m.errors.size(); ++e) {
-      const ParameterPath place(mechanism->description(), "error." + m.errors[e].name);
-      if (place.unit() == std::string("m")) place.set(parameters, e % 2 == 0 ? length : -length);
-    }
   }
   Outcome by_lanes() const {
     const LaneSampleModel model(

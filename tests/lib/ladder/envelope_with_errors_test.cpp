@@ -5,7 +5,7 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
-#include "boresight/mechanism/parameter_path.hpp"
+#include "error_scenes.hpp"
 
 namespace boresight {
 namespace envelope_with_errors_test {
@@ -18,18 +18,9 @@ struct Scene {
 class EnvelopeWithErrors : public testing::TestWithParam<Scene> {};
 
 std::shared_ptr<const Mechanism> built(const Scene& scene) {
-  MechanismDescription m =
-      read_mechanism(std::string(BORESIGHT_EXAMPLES "/") + scene.file, {{"motion.duration", scene.duration}});
-  for (std::size_t j = 0; m.errors.size() < 4 && j < m.joints.size(); ++j) {
-    ErrorDescription e;
-    e.name = m.joints[j].name + ".off";
-    e.joint = static_cast<int>(j);
-    e.body = m.joints[j].second;
-    e.direction = j % 2 == 0 ? Vec3(0.8, 0.0, 0.6) : Vec3(0.6, 0.0, -0.8);
-    m.errors.push_back(e);
-  }
-  for (std::size_t e = 0; e < m.errors.size(); ++e) m.errors[e].value = e % 2 == 0 ? scene.length : -scene.length;
-  return std::make_shared<const Mechanism>(m);
+  const std::string file = std::string(BORESIGHT_EXAMPLES "/") + scene.file;
+  return scenes::build(
+      scenes::with_joints_off(read_mechanism(file, {{"motion.duration", scene.duration}}), scene.length));
 }
 
 TEST_P(EnvelopeWithErrors, StatesWhatItIsOffByWhicheverOfThemIsTheLarger) {
