@@ -15,7 +15,8 @@ namespace boresight {
 
 // B: layout.size() x n, r: n [N, N m]. Returns for each clearance the loads on its offsets, in the order of OffsetLayout (kMostOffsets,
 // the slopes zero where the journal does not tilt), sleeve axes.
+// near: loads on all offsets, as long [N, N m]: of the many, those that differ least from these; empty: the least.
 std::vector<PlayOffsets> shared_reactions(const OffsetLayout& layout, const Parameters& parameters, const MatX& B,
-                                          const VecX& r);
+                                          const VecX& r, const VecX& near = VecX());
 
 }  // namespace boresight

@@ -283,6 +283,22 @@ class Perturbation final : public SceneRung {
     compliance = B * A * B.transpose();
   }
 
+  // On all offsets, in the order of `offsets`: forces, and couples on slopes and roll.
+  static VecX contact_loads(const OffsetLayout& offsets, const PerturbationSystem& system) {
+    VecX load = VecX::Zero(offsets.size());
+    for (int c = 0; c < offsets.clearances(); ++c) {
+      const PlayWrench<double>& wrench = system.wrench()[c];
+      if (std::none_of(wrench.contact.begin(), wrench.contact.end(),
+                       [](const ContactState<double>& contact) { return contact.penetration > 0.0; }))
+        continue;  // what the wrench holds may be of a contact that is over
+      const Vec3 couple = wrench.moment - system.motion()[c].e.cross(wrench.force);
+      PlayOffsets on;
+      on << wrench.force, -couple.z(), couple.x(), couple.y();
+      load.segment(offsets.joint(c).first, offsets.joint(c).count()) = on.head(offsets.joint(c).count());
+    }
+    return load;
+  }
+
   void record(const PreparedScene& prepared, const StandingDisplacement& standing, double t, const VecX& y,
               const VecX& slope, const PerturbationSystem& system, MotionRecorder& recorder,
               LargestDeviations& largest) const {
@@ -292,7 +308,7 @@ class Perturbation final : public SceneRung {
     BodyMotion body = displaced.moving(mechanism().boresight_body(), y.segment(n, n), slope.segment(n, n), a);
     const PoseError& error = recorder.accept(t, body, a);
     largest.add(t, std::max(error.position / mechanism().characteristic_length(), error.orientation), y.head(n),
-                y.segment(n, n));
+                y.segment(n, n), contact_loads(prepared.scene().offsets(), system));
     if (!recorder.sampling()) return;
     for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
       body = displaced.moving(recorder.bodies_wanted()[k], y.segment(n, n), slope.segment(n, n), a);

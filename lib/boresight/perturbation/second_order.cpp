@@ -126,8 +126,10 @@ class LeftOut {
     coordinates_.gain(deviation.t, T);
     at_.inverse_mass(row_.data(), A);
     const VecX reaction = solve_positive(A, VecX(Eigen::Map<const VecX>(row_.data() + at_.Ar, at_.n)));
+    const MatX B = coordinates_.offsets_per_coordinate(T);
+    const VecX carried = deviation.part_time > 0.0 ? VecX(deviation.load_time / deviation.part_time) : VecX();
     formulation_->forces().replace_contact(
-        shared_reactions(prepared_.scene().offsets(), parameters_, coordinates_.offsets_per_coordinate(T), reaction));
+        shared_reactions(prepared_.scene().offsets(), parameters_, B, reaction, carried));
 
     IdealState state;
     prepared_.ideal().state(deviation.t, state);
@@ -150,8 +152,8 @@ class LeftOut {
     // What no contact carries, nothing pushes on the average: it goes by the sum of these.
     const VecX moving = z_ddot.cwiseAbs() + by_rates.cwiseAbs() + by_places.cwiseAbs();
     if (want_missed_)
-      missed_.push_back(missed(deviation.t, left, reaction, A, coordinates_.offsets_per_coordinate(T),
-                               dependent.beyond.cwiseQuotient(dependent.length)));
+      missed_.push_back(
+          missed(deviation.t, left, reaction, A, B, carried, dependent.beyond.cwiseQuotient(dependent.length)));
     const VecX push = reaction.cwiseQuotient(unit_), push_off = solve_positive(A, left).cwiseQuotient(unit_);
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       double size = 0.0, size_off = 0.0;
@@ -252,9 +254,10 @@ class LeftOut {
 
   // left: what is missed where contacts carry the ideal reactions. They do on the average only: a journal that strikes is pushed by far more,
   // and where its offset is largest. So how forces accelerate is looked at apart, one by one.
-  Missed missed(double t, const VecX& left, const VecX& reaction, const MatX& A, const MatX& B, VecX offset) {
+  Missed missed(double t, const VecX& left, const VecX& reaction, const MatX& A, const MatX& B, const VecX& carried,
+                VecX offset) {
     const auto under = [&](const VecX& load) {
-      return acceleration_under(t, shared_reactions(prepared_.scene().offsets(), parameters_, B, load));
+      return acceleration_under(t, shared_reactions(prepared_.scene().offsets(), parameters_, B, load, carried));
     };
     const double push = reaction.cwiseAbs().maxCoeff();
     if (!(push > 0.0)) return {t, left, MatX::Zero(at_.n, at_.n), std::move(offset)};  // nothing pushes at all

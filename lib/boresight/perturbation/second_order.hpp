@@ -8,6 +8,8 @@
 //   forces     |dr| / |r|                        what pushes the journals changes with the offsets themselves and with the square of their
 //                                                rates: dr is what remains of the forces at z and z_dot when M_r, C, K and r have had
 //                                                their part
+// The forces that act on the offsets are those of the ideal joints. Where redundant joints can share them in many ways, they are shared as
+// contacts shared theirs on the average meanwhile: which of two bearings takes the thrust decides how it turns a shaft that tilts.
 // The first two shift every index by as much, maximum or mean square; the last turns, deepens and delays where journals go. It is
 // taken for each journal across and along its axis apart, weighted by its part of the displacement: along
 // its axis a journal may be pushed by a force so small that little changes it much. Where a motion starts with its journals at rest,
@@ -20,6 +22,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "boresight/scene/scene_rung.hpp"
@@ -36,11 +39,21 @@ class LargestDeviations {
   struct Deviation {
     double t = 0.0, size = 0.0;
     VecX z, z_dot;
+    double part_time = 0.0;  // of the part that was looked at [s]
+    VecX load_time;          // what contacts load the offsets with, over that time [N s, N m s]; empty: not known
   };
-  // size: of the deviation, against the mechanism's.
-  void add(double t, double size, const Eigen::Ref<const VecX>& z, const Eigen::Ref<const VecX>& z_dot) {
+  // size: of the deviation, against the mechanism's. load: of contacts on all offsets, in the order of OffsetLayout, since the instant
+  // before; empty where nobody knows.
+  void add(double t, double size, const Eigen::Ref<const VecX>& z, const Eigen::Ref<const VecX>& z_dot,
+           const VecX& load = VecX()) {
     const int last = static_cast<int>(parts_.size()) - 1;
     Deviation& largest = parts_[std::clamp(static_cast<int>((last + 1) * t / duration_), 0, last)];
+    const double since = t - std::exchange(t_, t);
+    if (since > 0.0 && load.size() > 0) {
+      if (largest.load_time.size() == 0) largest.load_time = VecX::Zero(load.size());
+      largest.load_time += since * load;
+      largest.part_time += since;
+    }
     if (!(size > largest.size)) return;
     largest.t = t;
     largest.size = size;
@@ -48,10 +61,13 @@ class LargestDeviations {
     largest.z_dot = z_dot;
   }
   const std::vector<Deviation>& parts() const { return parts_; }
-  void forget() { parts_.assign(parts_.size(), {}); }
+  void forget() {
+    parts_.assign(parts_.size(), {});
+    t_ = 0.0;
+  }
 
  private:
-  double duration_;
+  double duration_, t_ = 0.0;
   std::vector<Deviation> parts_;
 };
 

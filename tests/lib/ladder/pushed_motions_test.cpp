@@ -136,6 +136,30 @@ TEST(PushedMotions, AreTheExactOnesWhereAllThatIsMissedTurnsWithTheBody) {
   EXPECT_NEAR(stated, 2.0 * most, 0.05 * most);
 }
 
+// Two bearings share a load along their shaft in many ways, and which of them takes it decides how it turns the shaft as that tilts: the one
+// with the smaller gap does. Shared as evenly as can be it would turn it a quarter as much.
+TEST(PushedMotions, KnowWhichOfTwoBearingsTakesTheThrust) {
+  MechanismDescription m = scenes::gimbal({"E1", "E2"}, JournalAxes::free);
+  m.gravity = Vec3(0.0, -5.0, -8.0);
+  m.clearances[1].parameters.axial *= 2.0;
+  const auto mechanism = scenes::build(std::move(m));
+  RunOptions options;
+  options.step = 2e-5;
+  options.model_look = ModelLook::motions;
+  const RunResult linear = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
+  options.model_look = ModelLook::none;
+  const RunResult exact = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
+  for (const PointingQuantity quantity : {PointingQuantity::orientation_error, PointingQuantity::boresight_error}) {
+    const auto apart = [&](auto statistic) {
+      return std::abs(linear.index.of(quantity).*statistic / exact.index.of(quantity).*statistic - 1.0);
+    };
+    const double most = std::max({apart(&Statistics::max), apart(&Statistics::rms), apart(&Statistics::mean)});
+    const double stated = linear.error.model[int(quantity)];
+    EXPECT_GT(most, 1e-4);
+    EXPECT_NEAR(stated, 2.0 * most, 0.5 * most);
+  }
+}
+
 // What is missed as large as the inverse mass itself is no small push; and a pushed motion that goes on and on is another one. Neither is
 // followed to its end, and what was stated stays.
 TEST(PushedMotions, AreGivenUpWhereTheyShowNothing) {
