@@ -127,9 +127,9 @@ class LeftOut {
     at_.inverse_mass(row_.data(), A);
     const VecX reaction = solve_positive(A, VecX(Eigen::Map<const VecX>(row_.data() + at_.Ar, at_.n)));
     const MatX B = coordinates_.offsets_per_coordinate(T);
-    const VecX carried = deviation.part_time > 0.0 ? VecX(deviation.load_time / deviation.part_time) : VecX();
+    const VecX load = deviation.part_time > 0.0 ? VecX(deviation.load_time / deviation.part_time) : VecX();
     formulation_->forces().replace_contact(
-        shared_reactions(prepared_.scene().offsets(), parameters_, B, reaction, carried));
+        shared_reactions(prepared_.scene().offsets(), parameters_, B, reaction, load));
 
     IdealState state;
     prepared_.ideal().state(deviation.t, state);
@@ -153,7 +153,7 @@ class LeftOut {
     const VecX moving = z_ddot.cwiseAbs() + by_rates.cwiseAbs() + by_places.cwiseAbs();
     if (want_missed_)
       missed_.push_back(
-          missed(deviation.t, left, reaction, A, B, carried, dependent.beyond.cwiseQuotient(dependent.length)));
+          missed(deviation.t, left, reaction, A, B, load, dependent.beyond.cwiseQuotient(dependent.length)));
     const VecX push = reaction.cwiseQuotient(unit_), push_off = solve_positive(A, left).cwiseQuotient(unit_);
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       double size = 0.0, size_off = 0.0;
