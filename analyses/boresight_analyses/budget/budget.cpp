@@ -33,8 +33,13 @@ double mean_product(const std::vector<Vec3>& a, const std::vector<Vec3>& b, cons
 class Maker {
  public:
   Maker(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
-        const SampleStore& store, const std::vector<Judgement>& judgements)
-      : plan_(plan), runs_(runs), judgements_(judgements), axes_(quantity), ensemble_(plan, runs, store) {
+        const SampleStore& store, const std::vector<Judgement>& judgements, double of_steps)
+      : plan_(plan),
+        runs_(runs),
+        judgements_(judgements),
+        of_steps_(std::isfinite(of_steps) ? of_steps : 0.0),
+        axes_(quantity),
+        ensemble_(plan, runs, store) {
     for (const ClearanceDescription& c : mechanism.description().clearances)
       joints_.push_back(mechanism.description().joints[static_cast<std::size_t>(c.joint)].name);
     for (std::size_t g = 0; g < runs.groups(); ++g) kinds_.push_back(kind_of_group(plan, g, mechanism.description()));
@@ -44,7 +49,9 @@ class Maker {
     for (std::size_t j = 0; j < joints_.size(); ++j) alone_.push_back(stored_history(store, runs.alone(j), plan));
     for (std::uint64_t member = 0; member < plan.members; ++member) {
       PointingHistory total = ensemble_.total(member);
-      if (!total.error.empty()) totals_.push_back(std::move(total));
+      if (total.error.empty()) continue;
+      totals_.push_back(std::move(total));
+      members_.push_back(member);
     }
     if (totals_.empty()) throw ComputationError("no member of the ensemble could be followed");
     failed_ = static_cast<std::int64_t>(plan.members - totals_.size());
@@ -70,7 +77,8 @@ class Maker {
         for (std::size_t r = 0; r < plan_.requirements.size(); ++r)
           if (plan_.requirements[r].index == index && plan_.requirements[r].axis == axis &&
               plan_.requirements[r].exposure == 0.0)
-            b.requirements[r] = answer(r, sizes, table(b, index, plan_.requirements[r].interpretation));
+            b.requirements[r] =
+                answer(r, sizes, table(b, index, plan_.requirements[r].interpretation), values, plan_.windows);
         if (b.headline.index == index && b.headline.axis == axis)
           for (const std::vector<Vec3>& v : values) b.headline_sizes.push_back(sizes_of(v, {axis, axes_.count()}));
       }
@@ -79,8 +87,9 @@ class Maker {
       const BudgetRequirement& asked = plan_.requirements[r];
       if (asked.exposure == 0.0) continue;
       const Windows windows = plan_.windows_of(asked);
-      b.requirements[r] = answer(r, in_time(values_of(totals_, asked.index, windows), asked.axis, failed_),
-                                 classical(asked.index, asked.interpretation, windows));
+      const Values values = values_of(totals_, asked.index, windows);
+      b.requirements[r] = answer(r, in_time(values, asked.axis, failed_),
+                                 classical(asked.index, asked.interpretation, windows), values, windows);
     }
     b.parts = sub_budgets(
         plan_, ensemble_, axes_, table(b, b.headline.index, b.headline.interpretation).lines,
@@ -124,15 +133,37 @@ class Maker {
     return l;
   }
 
-  RequirementAnswer answer(std::size_t r, const EnsembleInTime& sizes, const ClassicalTable& t) const {
+  // values: of the asked index, of which `sizes` are those along the asked axis.
+  RequirementAnswer answer(std::size_t r, const EnsembleInTime& sizes, const ClassicalTable& t, const Values& values,
+                           const Windows& windows) const {
     const BudgetRequirement& asked = plan_.requirements[r];
     const Judgement judgement =
         judgements_.empty() ? Judgement{.confidence = asked.confidence, .why = ""} : judgements_[r];
-    return {.asked = asked,
-            .level = level(sizes, t, asked.axis, asked.probability, asked.confidence),
-            .compliance =
-                sizes.compliance(asked.interpretation, asked.limit, asked.probability, judgement, plan_.leave_out),
-            .judgement = judgement};
+    const auto judged = [&](const EnsembleInTime& of) {
+      return of.compliance(asked.interpretation, asked.limit, asked.probability, judgement, plan_.leave_out);
+    };
+    RequirementAnswer answer{.asked = asked,
+                             .level = level(sizes, t, asked.axis, asked.probability, asked.confidence),
+                             .compliance = judged(sizes),
+                             .judgement = judgement};
+    answer.met_by_members = answer.compliance.met;
+    std::vector<std::vector<double>> raised;
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+      const double error = of_steps_ + ensemble_.model_error(members_[m]);
+      answer.model_error = std::max(answer.model_error, error);
+      const AxisOf axis(asked.axis, axes_.count());
+      raised.push_back(sizes_of(values[m], axis));
+      if (!(error > 0.0)) continue;
+      // A rung states its error relative to the largest value of a motion.
+      const std::vector<double> own =
+          sizes_of(index_values(asked.index, *ensemble_.mechanism(members_[m]), windows), axis);
+      const double missed = own.empty() ? 0.0 : error * *std::max_element(own.begin(), own.end());
+      for (double& size : raised.back()) size += missed;
+    }
+    if (!(answer.model_error > 0.0)) return answer;
+    answer.within_error = judged(EnsembleInTime(std::move(raised), failed_));
+    answer.compliance.met = answer.met_by_members && answer.within_error.met;
+    return answer;
   }
 
   // Members of the attribution for which both runs are there; the mechanism's part alone, of one index.
@@ -314,12 +345,14 @@ class Maker {
   const BudgetPlan& plan_;
   const BudgetRuns& runs_;
   const std::vector<Judgement>& judgements_;
+  const double of_steps_;
   const BudgetAxes axes_;
   const BudgetEnsemble ensemble_;
   std::vector<std::string> joints_, kinds_;  // of the joints with clearance; of groups
   PointingHistory nominal_;
   std::vector<PointingHistory> alone_;   // per joint
   std::vector<PointingHistory> totals_;  // of the members that did not fail
+  std::vector<std::uint64_t> members_;   // their numbers
   std::int64_t failed_ = 0;
   std::uint64_t attribution_ = 0;
 };
@@ -349,8 +382,8 @@ std::vector<Judgement> look_at_requirements(const BudgetPlan& plan, const Budget
 }
 
 Budget budget_of(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
-                 const SampleStore& store, const std::vector<Judgement>& judgements) {
-  Budget budget = Maker(plan, runs, mechanism, quantity, store, judgements).make();
+                 const SampleStore& store, const std::vector<Judgement>& judgements, double of_steps) {
+  Budget budget = Maker(plan, runs, mechanism, quantity, store, judgements, of_steps).make();
   budget.spectral = spectral_levels(plan);
   if (!budget.spectral.empty()) budget.spectrum = spectrum_of(budget.shown);
   return budget;

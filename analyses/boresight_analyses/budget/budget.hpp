@@ -51,6 +51,11 @@ struct RequirementAnswer {
   BudgetLevel level;  // at the probability asked for
   EnsembleInTime::Compliance compliance;
   Judgement judgement = {};  // by which it holds: statistics/looks.hpp
+  // Met by the members as the rung has them; compliance.met holds only if also with every value larger by what the rung and its steps may
+  // have missed of that member's mechanism. Then the share, and what is shown of it.
+  bool met_by_members = false;
+  double model_error = 0.0;  // the largest of the members, relative to their mechanism's part
+  EnsembleInTime::Compliance within_error = {};
   double margin() const { return asked.limit - level.level.value; }
   bool rule_says_met() const { return level.by_rule <= asked.limit; }
 };
@@ -96,7 +101,8 @@ std::vector<Judgement> look_at_requirements(const BudgetPlan& plan, const Budget
 
 // From a store that holds all runs. `judgements`: of the requirements and the parts; each as a first look where there are none. Throws
 // ComputationError where no member, or not the nominal motion, could be followed.
+// of_steps: what the rung's steps may be off by, relative.
 Budget budget_of(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
-                 const SampleStore& store, const std::vector<Judgement>& judgements = {});
+                 const SampleStore& store, const std::vector<Judgement>& judgements = {}, double of_steps = 0.0);
 
 }  // namespace boresight

@@ -18,6 +18,9 @@ BudgetEnsemble::BudgetEnsemble(const BudgetPlan& plan, const BudgetRuns& runs, c
     if (!history.error.empty()) histories_.emplace(number, std::move(history));
   };
   for (std::uint64_t member = 0; member < runs.rows(); ++member) keep(runs.drawn(member));
+  store.read(runs.drawn(runs.rows()), [&](const SampleRecord& r) {
+    if (histories_.contains(r.number)) model_errors_[r.number] = r.outcome.model_error;
+  });
   for (std::uint64_t member = 0; member < runs.attribution(); ++member) {
     for (std::size_t g = 0; g < runs.groups(); ++g) keep(runs.held(member, g));
     for (std::size_t j = 0; j < runs.joints(); ++j) keep(runs.halved(member, j));
@@ -31,6 +34,11 @@ const PointingHistory* BudgetEnsemble::mechanism(std::uint64_t member, const Mem
   if (variant.halved >= 0) number = runs_.halved(row, static_cast<std::size_t>(variant.halved));
   const auto at = histories_.find(number);
   return at == histories_.end() ? nullptr : &at->second;
+}
+
+double BudgetEnsemble::model_error(std::uint64_t member) const {
+  const auto at = model_errors_.find(runs_.drawn(runs_.rows() == 1 ? 0 : member));
+  return at == model_errors_.end() || !std::isfinite(at->second) ? 0.0 : at->second;
 }
 
 PointingHistory BudgetEnsemble::external(std::uint64_t member, std::size_t contributor) const {

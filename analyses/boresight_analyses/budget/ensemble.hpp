@@ -43,6 +43,8 @@ class BudgetEnsemble {
 
   // The mechanism's part; none if that run failed.
   const PointingHistory* mechanism(std::uint64_t member, const MemberVariant& variant = {}) const;
+  // What the rung says of its own error in that run, relative to the run's largest value.
+  double model_error(std::uint64_t member) const;
   PointingHistory external(std::uint64_t member, std::size_t contributor) const;
   // Both together; without samples if the run failed.
   PointingHistory total(std::uint64_t member, const MemberVariant& variant = {}) const;
@@ -52,6 +54,7 @@ class BudgetEnsemble {
   const BudgetRuns& runs_;
   std::vector<Draws> draws_;
   std::map<std::uint64_t, PointingHistory> histories_;  // by number of the run
+  std::map<std::uint64_t, double> model_errors_;        // likewise, of the members as they are drawn
 };
 
 }  // namespace boresight

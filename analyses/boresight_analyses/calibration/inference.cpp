@@ -74,8 +74,11 @@ static void assess_error(const FittedParameter& parameter, ParameterEstimate& e)
 
 void assess_identifiability(const FittedParameter& parameter, ParameterEstimate& e) {
   if (parameter.is_error()) return assess_error(parameter, e);
+  // What is left of a prior's error where the data say next to nothing.
+  constexpr double kAsBefore = 0.9;
   const double share = e.standard_error / e.value;
   e.identifiable = false;
+  e.by_prior = parameter.has_prior && e.standard_error > kAsBefore * parameter.prior;
   if (parameter.at_bound(parameter.coordinate(e.value))) {
     e.reason = "the fit ran into the bound of what is allowed for it: the data ask for less or more, or for nothing";
   } else if (!(share < kUnknown)) {
@@ -83,7 +86,9 @@ void assess_identifiability(const FittedParameter& parameter, ParameterEstimate&
         "its standard error is " + (share < kSaidAsMultiple ? relative_text(share) + " of it" : relative_text(share));
   } else {
     e.identifiable = true;
-    e.reason = "known to " + number("%.2g %%", 100.0 * share);
+    e.reason = e.by_prior
+                   ? "not told by the data: known to " + number("%.2g %%", 100.0 * share) + ", as was assumed before"
+                   : "known to " + number("%.2g %%", 100.0 * share);
   }
 }
 
@@ -282,6 +287,8 @@ std::vector<std::string> verdict(const CalibrationProblem& problem, const Infere
     const ParameterEstimate& e = inference.parameters[p];
     const bool in_a_group = confused(inference, p, p);
     if (!e.identifiable && !in_a_group) words.push_back(e.name + " cannot be told from these data: " + e.reason + ".");
+    if (e.identifiable && e.by_prior)
+      words.push_back(e.name + " is not told by these data: its value and its error are what was assumed before.");
   }
   for (const ConfusedErrors& group : inference.confused) words.push_back(in_words(group, problem.parameters));
   for (int a = 0; a < P; ++a)

@@ -34,7 +34,8 @@ struct ParameterEstimate {
   double data_error = std::numeric_limits<double>::quiet_NaN();  // the standard error were the model without fault
   double coordinate_error = std::numeric_limits<double>::quiet_NaN();  // of u: the relative error of a logarithm
   bool identifiable = true;
-  std::string reason;  // why, or why not
+  bool by_prior = false;  // the data say next to nothing of it: it is known as well as was assumed before
+  std::string reason;     // why, or why not
 };
 
 struct ResidualSeries {

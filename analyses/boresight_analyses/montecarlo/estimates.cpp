@@ -112,6 +112,36 @@ ErrorStatement error_of(const NamedEstimate& e, const ModelError& model) {
   return s;
 }
 
+// Of rung and steps together, relative; what was not measured is not in it.
+class ErrorOfSamples {
+ public:
+  ErrorOfSamples(const std::string& headline, const ModelError& model) {
+    if (const auto own = model.rung_of.find(headline); own != model.rung_of.end()) {
+      alike_ = known(own->second);  // a pilot measures both at once
+      return;
+    }
+    alike_ = known(model.discretisation);
+    if (model.rung_of_sample.empty()) alike_ += known(model.rung);
+    of_sample_ = &model.rung_of_sample;
+    mean_ = alike_ + (of_sample_->empty() ? 0.0 : known(model.rung));
+  }
+  double mean() const { return std::max(alike_, mean_); }
+  // As large as the samples may be.
+  std::vector<double> added_to(std::vector<double> values) const {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double own = of_sample_ != nullptr && k < of_sample_->size() ? known((*of_sample_)[k]) : 0.0;
+      values[k] += (alike_ + own) * std::abs(values[k]);
+    }
+    return values;
+  }
+
+ private:
+  static double known(double error) { return std::isfinite(error) ? error : 0.0; }
+
+  double alike_ = 0.0, mean_ = 0.0;
+  const std::vector<double>* of_sample_ = nullptr;
+};
+
 // About ten numbers per decade, each of whole replicates.
 std::vector<std::uint64_t> convergence_counts(std::uint64_t n, const MonteCarloPlan& plan) {
   const SamplingDesign design(plan.design, static_cast<int>(plan.inputs.size()));
@@ -182,7 +212,18 @@ Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan
       RequirementVerdict verdict;
       verdict.judgement = judged();
       verdict.probability = probability_interval(samples, asked.limit, verdict.judgement);
-      verdict.met = verdict.judgement.by != Judgement::By::nothing && verdict.probability.low >= asked.probability;
+      const auto reaches = [&](const ReportedInterval& share) {
+        return verdict.judgement.by != Judgement::By::nothing && share.low >= asked.probability;
+      };
+      verdict.met = verdict.met_by_samples = reaches(verdict.probability);
+      const ErrorOfSamples error(headline_of(plan), model);
+      verdict.model_error = error.mean();
+      if (verdict.model_error > 0.0) {
+        verdict.within_error = with_samples(
+            error.added_to(values), values.size(), plan, plan.confidence,
+            [&](const auto& raised) { return probability_interval(raised, asked.limit, verdict.judgement); });
+        verdict.met = verdict.met && reaches(*verdict.within_error);
+      }
       verdict.fewest_samples = fewest_samples({asked.probability, asked.confidence}, verdict.judgement);
       result.requirement = verdict;
     }
@@ -192,9 +233,10 @@ Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan
   if (result.index.empty()) {
     for (const Headline& h : headlines()) result.index.push_back({h.name, too_few(plan.confidence)});
     if (plan.requirement)
-      result.requirement =
-          RequirementVerdict{false, too_few(plan.requirement->confidence), judged(),
-                             wilks_one_sided(plan.requirement->probability, plan.requirement->confidence)};
+      result.requirement = RequirementVerdict{
+          .probability = too_few(plan.requirement->confidence),
+          .judgement = judged(),
+          .fewest_samples = wilks_one_sided(plan.requirement->probability, plan.requirement->confidence)};
   }
   for (const NamedEstimate& e : result.index)
     if (std::isfinite(e.interval.value)) result.errors.push_back(error_of(e, model));

@@ -23,10 +23,15 @@ struct NamedEstimate {
 };
 
 struct RequirementVerdict {
-  bool met = false;                 // shown to be met: the probability's lower bound reaches what is asked
+  bool met = false;  // shown to be met: the lower bound of the probability reaches what is asked, of `within_error` too
   ReportedInterval probability;     // low and high are one-sided bounds, each at the requirement's confidence
   Judgement judgement = {};         // by which these bounds hold: looks.hpp
   std::int64_t fewest_samples = 0;  // independent ones that could show it at all, if none is above the limit
+  // By how much rung and steps may be off, relative, of the samples' mean where each has its own (0 where not known); and the share of samples
+  // that stay below the limit even if each of them is off by as much.
+  double model_error = 0.0;
+  std::optional<ReportedInterval> within_error = {};
+  bool met_by_samples = false;  // would be met, were the model without fault
 };
 
 // A standard of what a number is wrong by, in its own unit and relative to it.
@@ -44,6 +49,7 @@ struct ErrorStatement {
 struct ModelError {
   double discretisation = 0.0, rung = 0.0;     // NaN where not measured
   std::map<std::string, double> rung_of = {};  // per headline, where each has its own
+  std::vector<double> rung_of_sample = {};     // likewise per sample, in the order of the values
   std::string discretisation_why, rung_why;
 };
 

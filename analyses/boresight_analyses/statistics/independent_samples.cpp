@@ -62,6 +62,8 @@ IndependentInterval IndependentSamples::quantile(double p, double confidence) co
   result.value = gsl_stats_quantile_from_sorted_data(sorted_.data(), 1, sorted_.size(), p);
   result.low = low >= 1 ? sorted_[low - 1] : -kInfinity;
   result.high = high <= valued() ? sorted_[high - 1] : kInfinity;
+  // Between two samples by a straight line: with few of them that may lie on the far side of a bound, which is one of them.
+  result.value = std::clamp(result.value, result.low, result.high);
   result.confidence = confidence;
   result.coverage = ranks.coverage;
   result.exact = true;

@@ -125,6 +125,12 @@ std::string requirement_sentence(const BudgetStudy& s, const RequirementAnswer& 
   if (r.compliance.met)
     text += fmt::format(" with {} confidence, margin {}", percent(r.asked.confidence),
                         readable_share(r.margin() / r.asked.limit));
+  else if (r.met_by_members)
+    text += fmt::format(
+        ": the members show it, the model does not. The {} rung and its steps may be off by up to {} of a member's "
+        "mechanism; a more exact "
+        "rung may show it",
+        s.rung.name, readable_error(r.model_error));
   else if (r.margin() < 0.0)
     text += fmt::format(", {} above the limit", readable_share(-r.margin() / r.asked.limit));
   else

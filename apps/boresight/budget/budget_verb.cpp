@@ -114,6 +114,9 @@ Json budget_json(const BudgetStudy& s, const Budget& b) {
     if (r.asked.exposure > 0.0) one["exposure"] = r.asked.exposure;
     one["asked_confidence"] = r.asked.confidence;
     one["met"] = r.compliance.met;
+    one["met_by_members"] = r.met_by_members;
+    one["model_error"] = r.model_error;
+    if (r.model_error > 0.0) one["share_within_model_error"] = r.within_error.share;
     one["margin"] = r.margin();
     one["share"] = r.compliance.share;
     one["shown"] = r.compliance.shown;
@@ -212,7 +215,7 @@ class BudgetVerb : public Verb {
     std::optional<Budget> budget;
     if (whole)
       budget = budget_of(plan, runs, *mechanism, study.index.kind(), store,
-                         look_at_requirements(plan, BudgetAxes(study.index.kind()), store));
+                         look_at_requirements(plan, BudgetAxes(study.index.kind()), store), steps.relative);
     BudgetStudy result{.command = command,
                        .study = study,
                        .mechanism = *mechanism,

@@ -36,10 +36,11 @@ report::Table estimate_table(const CalibrationStudy& s) {
       return p.parameter == static_cast<int>(k) && std::isfinite(p.low) && std::isfinite(p.high);
     });
     if (e.identifiable)
-      table.rows.push_back({name_of_path(e.name), readable_as(e.value, e.si_unit, e.written_unit),
-                            readable_as(e.standard_error, e.si_unit, e.written_unit),
-                            std::isfinite(e.data_error) ? readable_as(e.data_error, e.si_unit, e.written_unit) : "",
-                            interval_of(e), profiled ? "profile" : "curvature", e.reason});
+      table.rows.push_back(
+          {name_of_path(e.name), readable_as(e.value, e.si_unit, e.written_unit),
+           readable_as(e.standard_error, e.si_unit, e.written_unit),
+           std::isfinite(e.data_error) && !e.by_prior ? readable_as(e.data_error, e.si_unit, e.written_unit) : "",
+           interval_of(e), profiled ? "profile" : "curvature", e.reason});
     else
       table.rows.push_back({name_of_path(e.name), "none", "", "", "", "", "not identifiable: " + e.reason});
   }
@@ -260,11 +261,16 @@ report::Document calibrate_report(const CalibrationStudy& s) {
   document.warnings = s.result.warnings;
   const bool all = std::all_of(inference.parameters.begin(), inference.parameters.end(),
                                [](const auto& e) { return e.identifiable; });
-  document.verdict =
-      report::Verdict{all && s.result.fit.converged ? report::Standing::good : report::Standing::bad,
-                      all && s.result.fit.converged ? std::string("All parameters are identifiable from these data.")
-                      : s.result.verdict.empty()    ? s.result.fit.reason
-                                                    : s.result.verdict.front()};
+  const auto assumed = std::count_if(inference.parameters.begin(), inference.parameters.end(),
+                                     [](const ParameterEstimate& e) { return e.by_prior; });
+  document.verdict = report::Verdict{
+      all && s.result.fit.converged ? report::Standing::good : report::Standing::bad,
+      all && s.result.fit.converged && assumed == 0 ? std::string("All parameters are identifiable from these data.")
+      : all && s.result.fit.converged
+          ? fmt::format("These data tell {} of {} parameters; the rest stands as was assumed before.",
+                        inference.parameters.size() - static_cast<std::size_t>(assumed), inference.parameters.size())
+      : s.result.verdict.empty() ? s.result.fit.reason
+                                 : s.result.verdict.front()};
   for (const ParameterEstimate& e : inference.parameters)
     if (e.name.starts_with("clearance.") || e.name.starts_with("error."))
       document.facts.push_back({name_of_path(e.name),

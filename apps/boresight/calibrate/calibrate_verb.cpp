@@ -211,7 +211,7 @@ class CalibrateVerb : public Verb {
       const ParameterEstimate& e = parameters[a];
       json["optimum"][e.name] = e.identifiable ? number(e.value) : Json();
       json["standard_error"][e.name] = e.identifiable ? number(e.standard_error) : Json();
-      json["standard_error_of_data"][e.name] = e.identifiable ? number(e.data_error) : Json();
+      json["standard_error_of_data"][e.name] = e.identifiable && !e.by_prior ? number(e.data_error) : Json();
       json["interval"][e.name] =
           e.identifiable ? Json{{"low", number(e.low)}, {"high", number(e.high)}, {"confidence", s.plan.confidence}}
                          : Json();
@@ -221,7 +221,7 @@ class CalibrateVerb : public Verb {
       for (std::size_t b = 0; b < parameters.size(); ++b)
         json["correlation"][e.name][parameters[b].name] =
             number(r.inference.correlation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
-      json["identifiable"][e.name] = {{"value", e.identifiable}, {"reason", e.reason}};
+      json["identifiable"][e.name] = {{"value", e.identifiable}, {"by_prior", e.by_prior}, {"reason", e.reason}};
     }
     json["combinations"] = combinations_of(s);
     json["verdict"] = r.verdict;
@@ -330,9 +330,9 @@ class CalibrateVerb : public Verb {
          s.result.fit.reason);
     for (const ParameterEstimate& e : s.result.inference.parameters)
       if (const DisplayUnit unit = unit_of_estimate(e); e.identifiable)
-        tell("  {}: {} +- {} ({:.5g} to {:.5g}{}{})\n", e.name, readable_as(e.value, e.si_unit, e.written_unit),
+        tell("  {}: {} +- {} ({:.5g} to {:.5g}{}{}){}\n", e.name, readable_as(e.value, e.si_unit, e.written_unit),
              readable_as(e.standard_error, e.si_unit, e.written_unit), e.low * unit.per_si, e.high * unit.per_si,
-             unit.name.empty() ? "" : " ", unit.name);
+             unit.name.empty() ? "" : " ", unit.name, e.by_prior ? ", assumed, not told by the data" : "");
       else
         tell("  {}: not identifiable: {}\n", e.name, e.reason);
     for (const ConfusedErrors& group : s.result.inference.confused)

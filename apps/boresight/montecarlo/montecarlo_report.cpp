@@ -330,7 +330,13 @@ std::string verdict_sentence(const MonteCarloStudy& s) {
     why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
     text += " " + why + ".";
   }
-  if (!found.met && found.judgement.by != Judgement::By::nothing && found.probability.value >= asked.probability)
+  if (found.met_by_samples && !found.met)
+    text += fmt::format(
+        " The samples show it, the model does not: the {} rung and its steps may be off by {}, and if every sample "
+        "were larger by what may be "
+        "missed of it, the share would be {:.6g} %. A more exact rung may show it.",
+        s.rung.name, readable_error(found.model_error), 100.0 * found.within_error->value);
+  else if (!found.met && found.judgement.by != Judgement::By::nothing && found.probability.value >= asked.probability)
     text += " The samples do not contradict it; more of them may show it.";
   return text;
 }

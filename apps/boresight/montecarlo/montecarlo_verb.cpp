@@ -53,17 +53,21 @@ class SamplesReadBack {
     }
     done_ += 1.0;
     model_error_ += record.outcome.model_error;
+    if (model_errors_.size() <= record.number) model_errors_.resize(record.number + 1, 0.0);
+    model_errors_[record.number] = record.outcome.model_error;
     if (record.number % every_ == 0) shown_.done.push_back(record);
   }
 
   const ShownSamples& shown() const { return shown_; }
   double mean_model_error() const { return done_ > 0.0 ? model_error_ / done_ : 0.0; }
+  const std::vector<double>& model_errors() const { return model_errors_; }  // by number; 0 where not known
 
  private:
   const SampleStore& store_;
   std::uint64_t every_ = 0;
   ShownSamples shown_;
   double done_ = 0.0, model_error_ = 0.0;
+  std::vector<double> model_errors_;
 };
 
 class MonteCarloVerb : public Verb {
@@ -236,6 +240,7 @@ class MonteCarloVerb : public Verb {
     ModelError error;
     const ShownSamples& shown = read_back.shown();
     error.rung = read_back.mean_model_error();
+    error.rung_of_sample = read_back.model_errors();
     error.rung_why = "the rung's own estimate of what it leaves out, mean over the samples";
     error.discretisation = steps.relative;
     error.discretisation_why = steps.why;
@@ -346,7 +351,11 @@ class MonteCarloVerb : public Verb {
                              {"confidence", asked.confidence},
                              {"met", s.estimates.requirement->met},
                              {"probability", interval_json(s.estimates.requirement->probability)},
-                             {"fewest_samples", s.estimates.requirement->fewest_samples}};
+                             {"fewest_samples", s.estimates.requirement->fewest_samples},
+                             {"model_error", s.estimates.requirement->model_error},
+                             {"met_by_samples", s.estimates.requirement->met_by_samples}};
+      if (s.estimates.requirement->within_error)
+        json["requirement"]["within_model_error"] = interval_json(*s.estimates.requirement->within_error);
       const Judgement& judgement = s.estimates.requirement->judgement;
       json["requirement"]["probability"]["confidence"] = judgement.confidence;
       if (!judgement.why.empty()) json["requirement"]["judged"] = judgement.why;

@@ -25,6 +25,21 @@ TwistAxis axis_of_twist(const Vec3& yA, const Vec3& yB, const Vec3& wA, const Ve
   return {m, (yA_dot + yB_dot - m * (yA_dot.dot(yB) + yA.dot(yB_dot))) / s};
 }
 
+// Turn of a direction v about the normal of e and f, the gradient by its angular velocity relative to theirs, and that gradient's own rate.
+struct Turn {
+  double angle;
+  Vec3 gradient, gradient_rate;
+};
+Turn turn_of(const Vec3& v, const Vec3& w_of_v, const Vec3& e, const Vec3& f, const Vec3& w_of_ef) {
+  const Vec3 v_dot = w_of_v.cross(v), e_dot = w_of_ef.cross(e), f_dot = w_of_ef.cross(f);
+  const double ve = v.dot(e), vf = v.dot(f), square = ve * ve + vf * vf;
+  const double ve_dot = v_dot.dot(e) + v.dot(e_dot), vf_dot = v_dot.dot(f) + v.dot(f_dot);
+  const Vec3 p = e * vf - f * ve, p_dot = e_dot * vf + e * vf_dot - f_dot * ve - f * ve_dot;
+  const Vec3 gradient = v.cross(p) / square;
+  return {std::atan2(ve, vf), gradient,
+          (v_dot.cross(p) + v.cross(p_dot) - gradient * (2.0 * (ve * ve_dot + vf * vf_dot))) / square};
+}
+
 double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
 bool has_points(JointType t) {
@@ -76,6 +91,9 @@ JointConstraint::JointConstraint(const Mechanism& mechanism, int joint, Clearanc
   // The roll that a rectangular guide leaves is a twist, of which moments are known however far the slider tilts.
   if (clearance >= 0 && rolls(mechanism.description().clearances[clearance], type))
     add(loose, {Kind::twist});
+  else if (type == JointType::prismatic && tilts)
+    add(false,
+        {Kind::twist});  // however a round guide's key lies about its axis, a slider that tilts keeps the same turn
   else if (type == JointType::prismatic || type == JointType::fixed)
     add(false, {Kind::angle, 2, 0});
   if (with_drive && description.driven && !want_released) {
@@ -90,7 +108,12 @@ void JointConstraint::add_free_rows(JointType type) {
     if ((slides_along_axis(type) && along) || (type == JointType::planar && !along))
       rows_.push_back({Kind::distance, axis});
   }
-  if (type == JointType::spherical || type == JointType::universal) {
+  if (type == JointType::universal) {
+    rows_.push_back({Kind::turn, 0});
+    rows_.push_back({Kind::turn, 1});
+    return;
+  }
+  if (type == JointType::spherical) {
     rows_.push_back({Kind::angle, 0, 1});
     rows_.push_back({Kind::angle, 2, 1});
   }
@@ -141,6 +164,27 @@ void JointConstraint::evaluate(const std::vector<BodyMotion>& bodies, const Time
         rows.value[i] = twist_about_y(XA.transpose() * XB);
         rows.rate[i] = w_rel.dot(m);
         bias = w_rel.dot(m_dot);
+        break;
+      }
+      case Kind::turn: {
+        const Vec3 s = B.R * second_axis_;
+        if (row.a == 0) {
+          const Turn turn = turn_of(s, B.w, XA.col(0), XA.col(2), A.w);
+          rows.reference.row(i) << Vec3::Zero().transpose(), -turn.gradient.transpose();
+          rows.other.row(i) << Vec3::Zero().transpose(), turn.gradient.transpose();
+          rows.value[i] = turn.angle;
+          rows.rate[i] = w_rel.dot(turn.gradient);
+          bias = w_rel.dot(turn.gradient_rate);
+        } else {
+          // The first axis as the second body sees it: that body turns the other way.
+          const Vec3 f = (XB.col(1) - s * s.dot(XB.col(1))).normalized();
+          const Turn turn = turn_of(XA.col(1), A.w, s.cross(f), f, B.w);
+          rows.reference.row(i) << Vec3::Zero().transpose(), -turn.gradient.transpose();
+          rows.other.row(i) << Vec3::Zero().transpose(), turn.gradient.transpose();
+          rows.value[i] = -turn.angle;
+          rows.rate[i] = w_rel.dot(turn.gradient);
+          bias = w_rel.dot(turn.gradient_rate);
+        }
         break;
       }
     }

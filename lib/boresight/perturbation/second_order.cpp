@@ -254,21 +254,25 @@ class LeftOut {
 
   // left: what is missed where contacts carry the ideal reactions. They do on the average only: a journal that strikes is pushed by far more,
   // and where its offset is largest. So how forces accelerate is looked at apart, one by one.
-  Missed missed(double t, const VecX& left, const VecX& reaction, const MatX& A, const MatX& B, const VecX& carried,
+  Missed missed(double t, const VecX& left, const VecX& reaction, const MatX& A, const MatX& B, const VecX& near,
                 VecX offset) {
     const auto under = [&](const VecX& load) {
-      return acceleration_under(t, shared_reactions(prepared_.scene().offsets(), parameters_, B, load, carried));
+      return acceleration_under(t, shared_reactions(prepared_.scene().offsets(), parameters_, B, load, near));
     };
     const double push = reaction.cwiseAbs().maxCoeff();
     if (!(push > 0.0)) return {t, left, MatX::Zero(at_.n, at_.n), std::move(offset)};  // nothing pushes at all
     const VecX balanced = under(reaction);
-    MatX change(at_.n, at_.n);
-    for (int i = 0; i < at_.n; ++i) {
+    MatX change = MatX::Zero(at_.n, at_.n);
+    // A freedom that no offset has is pushed by no load on offsets: how it gives way to one on itself is not looked at.
+    const int carried = at_.n - coordinates_.leftover();
+    for (int i = 0; i < carried; ++i) {
       VecX more = reaction;
       more[i] += push;
       change.col(i) = (balanced - under(more)) / push - A.col(i);
     }
-    change = 0.5 * (change + change.transpose()).eval();
+    const auto of_offsets = change.topLeftCorner(carried, carried);
+    change.topLeftCorner(carried, carried) = 0.5 * (of_offsets + of_offsets.transpose()).eval();
+    change.topRightCorner(carried, at_.n - carried) = change.bottomLeftCorner(at_.n - carried, carried).transpose();
     return {t, left + change * reaction, change, std::move(offset)};
   }
 

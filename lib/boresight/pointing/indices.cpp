@@ -127,6 +127,18 @@ void StatisticsOverTime::add(double t, double value) {
 
 Statistics StatisticsOverTime::result() const { return TimeWeights(time_).of(value_); }
 
+std::array<double, kPeakParts> StatisticsOverTime::peaks() const {
+  std::array<double, kPeakParts> peaks = {};
+  if (time_.empty()) return peaks;
+  const double first = time_.front(), length = time_.back() - first;
+  for (std::size_t i = 0; i < time_.size(); ++i) {
+    const int part = length > 0.0 ? static_cast<int>(kPeakParts * ((time_[i] - first) / length)) : 0;
+    double& peak = peaks[static_cast<std::size_t>(std::min(part, kPeakParts - 1))];
+    peak = std::max(peak, value_[i]);
+  }
+  return peaks;
+}
+
 TimeWeights::TimeWeights(std::span<const double> times)
     : time_(times.begin(), times.end()), weight_(times.size(), 0.0) {
   const std::size_t n = time_.size();
@@ -200,6 +212,10 @@ void IndicesOverTime::add(double t, const PoseError& error) {
   orientation_.add(t, error.orientation);
   boresight_.add(t, error.boresight);
   if (has_line_of_sight_) line_of_sight_.add(t, error.line_of_sight);
+}
+
+PeaksOfParts IndicesOverTime::peaks() const {
+  return {position_.peaks(), orientation_.peaks(), boresight_.peaks(), line_of_sight_.peaks()};
 }
 
 PointingIndices IndicesOverTime::result() const {

@@ -63,6 +63,11 @@ struct PointingIndices {
   }
 };
 
+// The largest values of each quantity in parts of the motion, of equal length from its start on: where motions go their own ways late, that of
+// another part may be the largest of the next one.
+inline constexpr int kPeakParts = 32;
+using PeaksOfParts = std::array<std::array<double, kPeakParts>, kPointingQuantities>;
+
 // The times at which a scalar is known, each of which stands for half the gap to either neighbour; and statistics of its values there.
 class TimeWeights {
  public:
@@ -87,6 +92,7 @@ class StatisticsOverTime {
   void reserve(std::size_t steps);
   void add(double t, double value);
   Statistics result() const;
+  std::array<double, kPeakParts> peaks() const;
 
  private:
   double start_, last_time_ = 0.0, last_value_ = 0.0;
@@ -105,6 +111,7 @@ class IndicesOverTime {
   void reserve(std::size_t steps);
   void add(double t, const PoseError& error);
   PointingIndices result() const;
+  PeaksOfParts peaks() const;
 
  private:
   bool has_line_of_sight_;

@@ -112,6 +112,7 @@ void MotionRecorder::sample_clearance(int clearance, const PlayMotion<double>& m
 
 RunResult MotionRecorder::finish() {
   result_.index = indices_.result();
+  result_.peaks = indices_.peaks();
   result_.start = start_;
   return std::move(result_);
 }

@@ -100,6 +100,7 @@ struct RunResult {
   bool damped_beyond_steps = false;
   std::string integrator_taken;  // "rosenbrock": it took over from the integrator of no options; "": none did
   PointingIndices index;
+  PeaksOfParts peaks = {};                        // from `start` on; zero where a rung does not follow a motion
   std::vector<ContactSummary> contact;            // per clearance
   Vec3 platform_acceleration_max = Vec3::Zero();  // of the boresight body's centre of mass, per world axis [m/s^2]
   double constraint_drift = 0.0;                  // largest violation of a position constraint met [m or rad]

@@ -65,7 +65,7 @@ PerQuantity standing_model_error(const Mechanism& mechanism, const PreparedScene
       std::max({index.position_error.max, length * index.orientation_error.max, length * index.boresight_error.max});
   const auto count = [&](PointingQuantity quantity, double miss, double least) {
     if (const double against = std::max(index.of(quantity).max, least); against > 0.0)
-      share[static_cast<std::size_t>(quantity)] = std::min(1.0, miss / against);
+      share[static_cast<std::size_t>(quantity)] = miss / against;
   };
   count(PointingQuantity::position_error, missed.position, kNextToNoError * largest);
   count(PointingQuantity::orientation_error, missed.orientation, kNextToNoError * largest / length);

@@ -49,6 +49,13 @@ constexpr double kOfScatteredRange = 3.0;
 // Student's t at 97.5 percent, four degrees of freedom: two groups of three.
 constexpr double kStudent4 = 2.776;
 
+// What a run says of a motion.
+struct Followed {
+  explicit Followed(const RunResult& run) : index(run.index), peaks(run.peaks) {}
+  PointingIndices index;
+  PeaksOfParts peaks;
+};
+
 // Further runs took more than kOverrun times what they may.
 class OutOfTime {};
 
@@ -90,7 +97,7 @@ class FurtherRuns {
 
   // share: of the run's own step or tolerance, or of the finer one. The longest step that a tolerance may choose goes with it: where that
   // bounds the steps, another tolerance alone changes nothing, whatever they leave out.
-  PointingIndices at(double share, bool finer = false) {
+  Followed at(double share, bool finer = false) {
     options_.step = share * (finer ? kFinerStep : 1.0) * step_;
     options_.tolerance = share * (finer ? kFinerTolerance : 1.0) * tolerance_;
     options_.share_of_longest_step = share * (finer ? kFinerStep : 1.0) * longest_;
@@ -111,18 +118,18 @@ class FurtherRuns {
       return at(share, finer);
     }
     if (result.interrupted || stopped_) throw ComputationError("it was stopped");
-    return result.index;
+    return Followed(result);
   }
 
   bool out_of_time() const { return out_of_time_; }
 
   // The next neighbour that can be followed, if there is one.
-  void add_neighbour(std::vector<PointingIndices>& to) {
+  void add_neighbour(std::vector<Followed>& to) {
     while (next_ < std::size(kNeighbours) && !out_of_time_ && !add_followed(to, kNeighbours[next_++], false)) {
     }
   }
   // Whether it could be followed.
-  bool add_followed(std::vector<PointingIndices>& to, double share, bool finer) {
+  bool add_followed(std::vector<Followed>& to, double share, bool finer) {
     try {
       to.push_back(at(share, finer));
       return true;
@@ -192,14 +199,25 @@ void for_each_index(const Each& each) {
     for (const auto statistic : kStatistics) each(quantity, statistic);
 }
 
-std::vector<double> of(const std::vector<PointingIndices>& runs, Statistics PointingIndices::*quantity,
+std::vector<double> of(const std::vector<Followed>& runs, Statistics PointingIndices::*quantity,
                        double Statistics::*statistic) {
   std::vector<double> values;
-  for (const PointingIndices& r : runs) values.push_back(r.*quantity.*statistic);
+  for (const Followed& r : runs) values.push_back(r.index.*quantity.*statistic);
   return values;
 }
 
-bool all_agree(const std::vector<PointingIndices>& runs) {
+// The largest values in parts first to last.
+std::vector<double> peaks_of(const std::vector<Followed>& runs, std::size_t quantity, int first, int last) {
+  std::vector<double> values;
+  for (const Followed& r : runs) {
+    const auto& peaks = r.peaks[quantity];
+    values.push_back(
+        *std::max_element(peaks.begin() + std::max(first, 0), peaks.begin() + std::min(last, kPeakParts - 1) + 1));
+  }
+  return values;
+}
+
+bool all_agree(const std::vector<Followed>& runs) {
   bool agree = true;
   for_each_index([&](auto quantity, auto statistic) {
     const std::vector<double> values = of(runs, quantity, statistic);
@@ -239,7 +257,7 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
     return error;
   };
   if (!fits(kTriedForItsCost * one)) return too_dear();
-  std::vector<PointingIndices> own = {result.index}, finer;
+  std::vector<Followed> own = {Followed(result)}, finer;
   bool settled = false, whole = false;
   try {
     further.add_neighbour(own);
@@ -267,27 +285,46 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
   error.measured = true;
   for (PointingIndices* indices : {&error.stated, &error.spread, &error.shift})
     indices->has_line_of_sight = result.index.has_line_of_sight;
-  for_each_index([&](auto quantity, auto statistic) {
-    const std::vector<double> x = of(own, quantity, statistic), y = of(finer, quantity, statistic);
+  struct Said {
+    double stated, spread, shift;
+  };
+  const auto said_of = [&](const std::vector<double>& x, const std::vector<double>& y) {
     const double shift = std::abs(mean(x) - mean(y));
-    double stated = 0.0, spread = 0.0;
     if (whole) {
       const double n = static_cast<double>(x.size());
-      spread = std::sqrt((squares(x) + squares(y)) / (2.0 * n - 2.0));
+      const double spread = std::sqrt((squares(x) + squares(y)) / (2.0 * n - 2.0));
       const bool stands_out = shift > kStudent4 * spread * std::sqrt(2.0 / n);
-      stated =
-          std::abs(x[0] - mean(x)) + (stands_out ? 2.0 : 1.0) * shift + kStudent4 * spread * std::sqrt(1.0 + 1.0 / n);
-    } else {
-      std::vector<double> values = x;
-      values.insert(values.end(), y.begin(), y.end());
-      // What agrees does not scatter.
-      spread = settled || x.size() < 2 ? 0.0 : std::abs(x[0] - x[1]) / std::sqrt(2.0);
-      stated = (settled ? kOfRange : kOfScatteredRange) * range(values);
+      return Said{
+          std::abs(x[0] - mean(x)) + (stands_out ? 2.0 : 1.0) * shift + kStudent4 * spread * std::sqrt(1.0 + 1.0 / n),
+          spread, shift};
     }
-    error.stated.*quantity.*statistic = std::max(stated, kOfTolerance * further.tolerance() * std::abs(x[0]));
-    error.spread.*quantity.*statistic = spread;
-    error.shift.*quantity.*statistic = shift;
+    std::vector<double> values = x;
+    values.insert(values.end(), y.begin(), y.end());
+    // What agrees does not scatter.
+    const double spread = settled || x.size() < 2 ? 0.0 : std::abs(x[0] - x[1]) / std::sqrt(2.0);
+    return Said{(settled ? kOfRange : kOfScatteredRange) * range(values), spread, shift};
+  };
+  for_each_index([&](auto quantity, auto statistic) {
+    const std::vector<double> x = of(own, quantity, statistic), y = of(finer, quantity, statistic);
+    const Said said = said_of(x, y);
+    error.stated.*quantity.*statistic = std::max(said.stated, kOfTolerance * further.tolerance() * std::abs(x[0]));
+    error.spread.*quantity.*statistic = said.spread;
+    error.shift.*quantity.*statistic = said.shift;
   });
+  // A maximum that all runs have in common may come early, and a later part of the motion, where they go their own ways, exceed it in the
+  // next one. A peak that lies at the end of a part in one run and at the beginning of the next one in another is no scatter: of a part alone
+  // and with half of its neighbours, what says less counts.
+  for (std::size_t k = 0; k < kQuantities.size(); ++k) {
+    const auto reach = [&](int first, int last) {
+      const std::vector<double> x = peaks_of(own, k, first, last);
+      return x[0] + said_of(x, peaks_of(finer, k, first, last)).stated;
+    };
+    double highest = 0.0;
+    for (int part = 0; part < kPeakParts; part += 2)
+      highest = std::max(highest, std::min(reach(part, part + 1), reach(part - 1, part + 2)));
+    double& stated = (error.stated.*kQuantities[k]).max;
+    stated = std::max(stated, highest - (result.index.*kQuantities[k]).max);
+  }
   if (own.size() > 1)
     std::snprintf(text, sizeof text, "%s: %zu of them at neighbouring %s, %zu at %s",
                   settled ? "measured by further runs that agree" : "measured by further runs", own.size() - 1,

@@ -14,7 +14,7 @@
 //
 // covers, with a confidence of 95 percent, what a run at a finer step would differ by; t is Student's. remainder: what
 // the finer group still lacks, for an error that falls at least with the first power of the step: 2 where the shift
-// stands out of the scatter, 1 where it cannot be told from it.
+// stands out of the scatter, 1 where it cannot be told from it. Of a maximum no less is stated than what any part of the motion may reach.
 //
 //   const MeasuredError error = measure_discretisation(*rung, parameters, options, result);
 //   if (error.measured) error.stated.position_error.max;     // [m]

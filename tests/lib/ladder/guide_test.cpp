@@ -122,5 +122,30 @@ TEST(SliderOnItsGuide, IsDrawnByTheBoundWithItsEndsWhereItHasSlidTo) {
   EXPECT_LT(deepest, 0.05 * kClearance);
 }
 
+// A load off the guide's middle tips the slider across the guide. What keeps it from turning about the guide is a key, and where that lies is the
+// drawing's choice: turned about the guide with all that pushes it, the slider tips as it did and turns about nothing else.
+TEST(SliderOnItsGuide, TipsAlikeHoweverItIsTurnedAboutItsAxis) {
+  const auto tipped = [](double by) {
+    MechanismDescription m = slider(Vec3::UnitX(), JournalAxes::free, "0");
+    const Mat3 turn = Eigen::AngleAxisd(by, Vec3::UnitX()).toRotationMatrix();
+    m.bodies[0].center_of_mass = Vec3(0.1, 0.0, 0.0);
+    m.bodies[0].axes = turn;
+    m.bodies[0].inertia = Vec3(2e-3, 4e-3, 4e-3).asDiagonal();
+    m.bodies[0].boresight = turn * Vec3::UnitY();  // what it tips about
+    m.gravity = turn * m.gravity;
+    m.journals = JournalStart::rest;
+    m.clearances[0].parameters.sleeve_length = 20e-3;
+    m.motion.duration = 0.005;
+    return followed("multibody", m).index;
+  };
+  const PointingIndices straight = tipped(0.0);
+  EXPECT_GT(straight.orientation_error.max, 0.01);
+  for (const double by : {0.3, 0.785, 1.2, 2.5}) {
+    const PointingIndices turned = tipped(by);
+    EXPECT_NEAR(turned.orientation_error.max, straight.orientation_error.max, 1e-9) << by;
+    EXPECT_LT(turned.boresight_error.max, 1e-9) << by;
+  }
+}
+
 }  // namespace guide_test
 }  // namespace boresight

@@ -139,5 +139,33 @@ TEST(MovedDrawing, ByTenKilometresChangesNoAccelerationOfAPrescribedPose) {
   EXPECT_NEAR(index(moved).rms / index(own).rms, 1.0, 2e-3);
 }
 
+// Two arms on a universal joint that nothing drives, one joint with play. Which coordinates serve is looked at during the motion; a longer one
+// must not take other ones that fail where it starts.
+TEST(MotionOnAUniversalJoint, StartsAtRestHoweverLongItIs) {
+  for (const double duration : {0.3, 0.5, 1.0}) {
+    MechanismDescription m;
+    m.gravity = Vec3(0.0, 0.0, -9.81);
+    const int upper = scenes::add_body(m, "upper", 1.0, {0.1, 0.0, 0.0}, Vec3::Zero()),
+              lower = scenes::add_body(m, "lower", 1.0, {0.3, 0.0, 0.0}, Vec3::Zero());
+    m.bodies[upper].boresight.reset();
+    m.bodies[lower].boresight = Vec3::UnitX();
+    const int cross = scenes::add_joint(m, JointType::universal, kGround, upper, Vec3::Zero(), Vec3::UnitY());
+    m.joints[cross].second_axis = Vec3::UnitZ();
+    const int hinge = scenes::add_joint(m, JointType::revolute, upper, lower, {0.2, 0.0, 0.0}, Vec3::UnitY());
+    scenes::add_clearance(m, hinge, false, JournalAxes::parallel);
+    m.journals = JournalStart::rest;
+    m.motion.duration = duration;
+    const auto mechanism = scenes::build(m);
+    RunOptions options;
+    options.sample_spacing = duration;
+    for (const char* rung : {"multibody", "perturbation"}) {
+      const RunResult run = make_rung(rung, mechanism)->run(mechanism->parameters(), options);
+      EXPECT_NEAR(run.clearances[0].front().offset.norm(), m.clearances[0].parameters.radial,
+                  0.05 * m.clearances[0].parameters.radial)
+          << rung << ", " << duration << " s";
+    }
+  }
+}
+
 }  // namespace moved_drawing_test
 }  // namespace boresight

@@ -160,6 +160,39 @@ TEST(PushedMotions, KnowWhichOfTwoBearingsTakesTheThrust) {
   }
 }
 
+// A pendulum on a journal with play: nothing drives its turn, and no load on the journal pushes it. What the journal misses is looked at all the
+// same, and the smaller the play the less that is.
+TEST(PushedMotions, AreFollowedBesideAFreedomThatNothingDrives) {
+  double before = 1.0;
+  for (const double play : {1e-4, 1e-5}) {
+    MechanismDescription m;
+    m.gravity = Vec3(0.0, 0.0, -9.81);
+    const int body = scenes::add_body(m, "pendulum", 2.0, {0.2, 0.0, 0.0}, Vec3::Zero());
+    m.bodies[body].boresight = Vec3::UnitX();
+    const int joint = scenes::add_joint(m, JointType::revolute, kGround, body, Vec3::Zero(), Vec3::UnitY());
+    scenes::add_clearance(m, joint, false, JournalAxes::parallel);
+    m.clearances[0].parameters.radial = m.clearances[0].parameters.axial = play;
+    m.journals = JournalStart::rest;
+    m.motion.duration = 0.1;
+    const auto mechanism = scenes::build(std::move(m));
+    RunOptions options;
+    options.step = 1e-5;
+    options.model_look = ModelLook::motions;
+    const RunResult linear = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
+    options.model_look = ModelLook::none;
+    const RunResult exact = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
+    const auto apart = [&](auto statistic) {
+      return std::abs(linear.index.position_error.*statistic / exact.index.position_error.*statistic - 1.0);
+    };
+    const double most = std::max({apart(&Statistics::max), apart(&Statistics::rms), apart(&Statistics::mean)});
+    const double stated = linear.error.model[int(PointingQuantity::position_error)];
+    EXPECT_GT(stated, most) << play;
+    EXPECT_LT(stated, 0.01) << play;
+    EXPECT_LT(stated, 0.5 * before) << play;
+    before = stated;
+  }
+}
+
 // What is missed as large as the inverse mass itself is no small push; and a pushed motion that goes on and on is another one. Neither is
 // followed to its end, and what was stated stays.
 TEST(PushedMotions, AreGivenUpWhereTheyShowNothing) {

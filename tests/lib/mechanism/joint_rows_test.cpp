@@ -143,6 +143,44 @@ TEST(JointRows, AJointHasAsManyRowsAsItTakesFreedoms) {
   }
 }
 
+TEST(JointRows, OfWhatJointsLeaveFreeAreTheDerivativesOfTheirValue) {
+  for (JointType type : kTypes) {
+    const Mechanism mechanism(two_bodies(type, false, nullptr, false));
+    const JointConstraint constraint(mechanism, 0, ClearanceRows::free, false);
+    hold_against_differences(mechanism, constraint, std::string(to_string(type)) + ", free");
+  }
+}
+
+// Its two turns are coordinates in every pose; slopes of its axes would fail a quarter of a turn away.
+TEST(JointRows, OfAUniversalJointAreItsTwoTurnsInEveryPose) {
+  const Mechanism mechanism(two_bodies(JointType::universal, false, nullptr, false));
+  const MechanismDescription& m = mechanism.description();
+  const JointConstraint free(mechanism, 0, ClearanceRows::free, false);
+  ASSERT_EQ(free.count(), 2);
+  const Vec3 first = m.joints[0].axis, second = m.joints[0].second_axis;  // across each other
+  ASSERT_NEAR(first.dot(second), 0.0, 1e-15);
+  std::vector<BodyMotion> bodies;
+  for (const BodyDescription& b : m.bodies) bodies.push_back({b.center_of_mass, b.axes, Vec3::Zero(), Vec3::Zero()});
+  const Mat3 home = bodies[1].R;
+  JointRows rows, at_home;
+  free.evaluate(bodies, {}, at_home);
+  for (int a = -3; a <= 3; ++a)
+    for (int b = -3; b <= 3; ++b) {
+      const double q1 = 0.99 * a, q2 = 0.97 * b;
+      const Mat3 turned = Eigen::AngleAxisd(q1, first).toRotationMatrix();
+      bodies[1].R = turned * Eigen::AngleAxisd(q2, second) * home;
+      free.evaluate(bodies, {}, rows);
+      EXPECT_NEAR(std::remainder(rows.value[0] - at_home.value[0] - q1, 2.0 * M_PI), 0.0, 1e-13) << a << ' ' << b;
+      EXPECT_NEAR(std::remainder(rows.value[1] - at_home.value[1] - q2, 2.0 * M_PI), 0.0, 1e-13) << a << ' ' << b;
+      Eigen::Matrix2d rates;
+      for (int i = 0; i < 2; ++i) {
+        const Vec3 by_turn = rows.other.row(i).tail<3>();
+        rates.row(i) << by_turn.dot(first), by_turn.dot(turned * second);
+      }
+      EXPECT_LT((rates - Eigen::Matrix2d::Identity()).norm(), 1e-13) << a << ' ' << b;
+    }
+}
+
 TEST(JointRows, AllRowsVanishAtHome) {
   for (JointType type : kTypes) {
     const Mechanism mechanism(two_bodies(type, false, nullptr, false));
