@@ -32,12 +32,14 @@ inline constexpr double kMostMisfit = 0.02;
 struct Allocation {
   std::string judged_by;  // "samples", "worst case", "root-sum-square"
   bool feasible = false;
-  bool proven = false;            // nothing cheaper meets the same requirement by the samples of the search
-  bool finished = false;          // the search ended by itself: proven, or (continuous) the descent came to rest
-  std::vector<int> choice;        // of options; empty where all entries have cost curves
+  bool proven = false;      // nothing cheaper meets the same requirement by the samples of the search, with that room
+  bool finished = false;    // the search ended by itself: proven, or (continuous) the descent came to rest
+  std::vector<int> choice;  // of options; empty where all entries have cost curves
   std::vector<double> tolerance;  // [SI] of the entries with cost curves; empty where none has
   double price = 0.0;
-  double bound = 0.0;         // nothing costs less and meets the requirement by the samples of the search; 0: not known
+  // Nothing costs less and meets the requirement by the samples of the search, with the room that a confirmation of so many samples needs; 0: not
+  // known. More samples to confirm by (`confirm`) leave room for cheaper sets.
+  double bound = 0.0;
   double reached = 0.0;       // the least limit that it keeps with the room a confirmation needs, on the
                               // confirming rung's scale
   double share_within = 0.0;  // of the samples, likewise

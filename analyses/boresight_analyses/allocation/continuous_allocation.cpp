@@ -278,7 +278,7 @@ ToleranceRequirement worst_case_tolerances(const LinearDeviation& deviation, Zon
 
 ToleranceRequirement root_sum_square_tolerances(const LinearDeviation& deviation, ZonePlaces places,
                                                 double probability) {
-  const double quantile = boost::math::quantile(boost::math::normal(), probability);
+  const double quantile = root_sum_square_quantile(probability, places.centred, places.least.size());
   return [&deviation, places = std::move(places), quantile](std::span<const double> t, std::span<double> gradient) {
     const auto value = [&](const std::vector<double>& tolerance) {
       std::vector<double> middle(places.least), half(tolerance.size());

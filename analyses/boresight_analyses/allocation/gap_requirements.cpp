@@ -265,7 +265,7 @@ RootSumSquareRequirement::RootSumSquareRequirement(const LinearDeviation& deviat
     : deviation_(deviation),
       tightest_(tightest_options(gap)),
       centred_(std::move(centred)),
-      z_(boost::math::quantile(boost::math::normal(), probability)),
+      z_(root_sum_square_quantile(probability, centred_, gap.size())),
       limit_(limit) {
   for (const auto& options : gap) {
     middle_.emplace_back();
@@ -329,6 +329,12 @@ MiddleAndHalf middle_and_half(const std::vector<double>& values) {
   const double mean = values.front() + beyond / count;
   for (const double v : values) squares += (v - mean) * (v - mean);
   return {mean, 3.0 * std::sqrt(squares / count)};
+}
+
+double root_sum_square_quantile(double probability, const std::vector<bool>& centred, std::size_t count) {
+  const bool all =
+      count > 0 && centred.size() >= count && std::find(centred.begin(), centred.end(), false) == centred.end();
+  return boost::math::quantile(boost::math::normal(), all ? 0.5 + 0.5 * probability : probability);
 }
 
 double root_sum_square_index(const LinearDeviation& deviation, std::span<const double> middle,

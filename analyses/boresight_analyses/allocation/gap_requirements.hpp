@@ -6,7 +6,8 @@
 //                    h_j half the zone taken as three standard deviations, z the normal quantile of p (Chase,
 //                    Greenwood 1988, "Design issues in mechanical tolerance analysis", Manufacturing Review 1(1)).
 //                    s_j is dI/dc_j of a gap; of an error, which has no direction of its own against the
-//                    others, the index of one unit of it alone, as pointing budgets add them
+//                    others, the index of one unit of it alone, as pointing budgets add them. Where all are such errors the index is the
+//                    size of what goes to both sides of nothing: z is then that of (1 + p) / 2
 #pragma once
 
 #include <cstdint>
@@ -121,6 +122,9 @@ struct MiddleAndHalf {
   double middle = 0.0, half = 0.0;
 };
 MiddleAndHalf middle_and_half(const std::vector<double>& values);
+
+// z of the root-sum-square rule.
+double root_sum_square_quantile(double probability, const std::vector<bool>& centred, std::size_t count);
 
 // index + z sqrt(sum (s_j half_j / 3)^2) at these gaps and errors; centred[j]: s_j is that of an error.
 double root_sum_square_index(const LinearDeviation& deviation, std::span<const double> middle,

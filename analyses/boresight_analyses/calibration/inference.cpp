@@ -110,8 +110,29 @@ WindowInformation window_information(const CalibrationProblem& problem, const Wi
   out.information = 0.5 * (out.information + out.information.transpose()).eval();
   out.scores = MatX::Zero(w.last - w.first + 1, G);
   for (Eigen::Index i = 0; i < N; ++i) out.scores.row(at.sample[i] - w.first) += score[i] * A.row(i);
+  out.rows = std::move(A);
   return out;
 }
+
+namespace {
+
+// Sum over a window's values a_i a_j^T rho^|i - j|, values of one channel: what noise does that follows itself as a first-order process does.
+MatX products_of_followers(const MatX& rows, const std::vector<int>& channel, double rho) {
+  MatX sum = MatX::Zero(rows.cols(), rows.cols());
+  VecX later = VecX::Zero(rows.cols());
+  for (Eigen::Index i = rows.rows() - 1; i >= 0; --i) {
+    const auto next = static_cast<std::size_t>(i + 1);
+    if (next < channel.size() && channel[next] == channel[next - 1])
+      later = rho * (rows.row(i + 1).transpose() + later);
+    else
+      later.setZero();
+    const VecX a = rows.row(i);
+    sum += a * a.transpose() + a * later.transpose() + later * a.transpose();
+  }
+  return sum;
+}
+
+}  // namespace
 
 Inference infer(const CalibrationProblem& problem, const FitResult& fit, double confidence,
                 const std::vector<bool>& fixed, int jobs) {
@@ -190,6 +211,7 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   out.covariance = out.variance_factor * inverse - (out.variance_factor - 1.0) * told;
   out.white_covariance = inverse;
   out.growth = VecX::Ones(G);
+  double freedom_of_errors = freedom;
   if (out.autocorrelation > noise) {
     int lost = 1;
     while (lost + 1 < static_cast<int>(until_lost.size()) && until_lost[static_cast<std::size_t>(lost)] > noise) ++lost;
@@ -203,9 +225,26 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
         meat += (1.0 - l / (out.lags + 1.0)) * (cross + cross.transpose());
       }
     const MatX robust = out.values / freedom * bread * meat * bread + told;
+    // Sums of the residuals' own products are too small, since the fit has taken the slow part out of them: no less than what a first-order
+    // process does that is worth as few independent values, with its variance over the freedom that is left of these (Bayley and Hammersley
+    // 1946). With play, what lasts is the model's own error, which is estimated by itself (model_error.hpp).
+    VecX least = VecX::Zero(G);
+    if (!problem.follows_play()) {
+      const double tau = out.per_independent_one, rho = (tau - 1.0) / (tau + 1.0);
+      freedom_of_errors = std::max(1.0, static_cast<double>(out.values) / tau - out.unknowns);
+      MatX together = MatX::Zero(G, G), apart = together;
+      for (int k = 0; k < count; ++k) {
+        const std::vector<int>& channel = residuals[static_cast<std::size_t>(k)].channel;
+        together += products_of_followers(parts[k].rows, channel, rho);
+        apart += parts[k].rows.transpose() * parts[k].rows;
+      }
+      const VecX of_followers = (bread * together * bread).diagonal(), of_others = (bread * apart * bread).diagonal();
+      for (int g : free)
+        if (of_others[g] > 0.0) least[g] = of_followers[g] / of_others[g] * freedom / (tau * freedom_of_errors);
+    }
     // Never narrower than the white ones.
     for (int g : free) {
-      out.growth[g] = std::max(1.0, robust(g, g) / out.covariance(g, g));
+      out.growth[g] = std::max({1.0, robust(g, g) / out.covariance(g, g), least[g]});
       out.covariance.row(g) *= std::sqrt(out.growth[g]);
       out.covariance.col(g) *= std::sqrt(out.growth[g]);
     }
@@ -216,9 +255,9 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   out.rank = static_cast<int>((eigen.eigenvalues().array() > 1.0 / (kUnknown * kUnknown)).count());
 
   const double normal = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence),
-               quantile = nothing_left
-                              ? normal
-                              : boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
+               quantile = nothing_left ? normal
+                                       : boost::math::quantile(boost::math::students_t(freedom_of_errors),
+                                                               0.5 + 0.5 * confidence);
   out.quantile = quantile;
   out.student = quantile / normal;
   const std::vector<std::string> names = problem.global_names();

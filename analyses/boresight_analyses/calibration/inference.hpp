@@ -73,6 +73,7 @@ void assess_identifiability(const FittedParameter& parameter, ParameterEstimate&
 struct WindowInformation {
   MatX information;
   MatX scores;  // samples x globals
+  MatX rows;    // what each value adds to the estimates by its noise: values x globals, channel after channel
 };
 WindowInformation window_information(const CalibrationProblem& problem, const Window& window,
                                      const WindowResiduals& at);

@@ -50,7 +50,7 @@ struct ModelError {
   double discretisation = 0.0, rung = 0.0;     // NaN where not measured
   std::map<std::string, double> rung_of = {};  // per headline, where each has its own
   std::vector<double> rung_of_sample = {};     // likewise per sample, in the order of the values
-  std::string discretisation_why, rung_why;
+  std::string discretisation_why = {}, rung_why = {};
 };
 
 struct ConvergencePoint {

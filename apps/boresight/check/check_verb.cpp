@@ -88,8 +88,9 @@ void print(const Mechanism& mechanism, const CheckResult& result, const OutputDi
   for (const ContactFrequency& c : result.contacts) {
     if (c.largest_stable_step == 0.0) continue;  // its play cannot move: a problem below
     tell(
-        "  {}: largest stable step of RK4 {}, penetration {} under its mean load, impacts within the contact law up to "
-        "{}\n",
+        "  {}: under its mean load, largest stable step of RK4 about {} (less where it strikes), penetration {}; "
+        "impacts "
+        "within the contact law up to {}\n",
         c.joint, c.largest_stable_step > 0.0 ? readable(c.largest_stable_step, "s") : "not known",
         readable(c.typical_penetration, "m"), readable(c.validity_speed, "m/s"));
   }

@@ -105,6 +105,7 @@ int run_fidelities(const SeveralRungs& s) {
     warnings.push_back("the cheaper rungs do not pay: this is plain Monte Carlo on " + top +
                        ", the pilot was spent in vain");
   bool met = true;
+  double shown = 0.0;  // of all cases, at least
   Json json = several_rungs_summary(s, top, warnings, o.earlier);
   json["samples"] = o.plan.samples[0];
   json["failed"] = o.mean.failed;
@@ -125,7 +126,8 @@ int run_fidelities(const SeveralRungs& s) {
                                  false,
                                  p.basis,
                                  "independent"};
-    met = below.low >= plan.requirement->probability;
+    shown = below.low;
+    met = shown >= plan.requirement->probability;
     json["requirement"] = {{"limit", plan.requirement->limit},
                            {"asked_probability", plan.requirement->probability},
                            {"confidence", plan.requirement->confidence},
@@ -186,6 +188,13 @@ int run_fidelities(const SeveralRungs& s) {
   s.own.out().publish();
   if (!s.command.quiet) {
     tell("  {}\n", sentence);
+    if (o.excess)
+      tell(
+          "  {} at or below {} in {:g} % of all cases: {}; by the samples of {} at least {:.4g} % with {:g} % "
+          "confidence\n",
+          s.question.study.index.title(), readable_as(plan.requirement->limit, unit, plan.requirement->unit),
+          100.0 * plan.requirement->probability, met ? "met" : "not shown to be met", top, 100.0 * shown,
+          100.0 * plan.requirement->confidence);
     tell("  gain measured: {:.3g} ({:.1f} s of CPU)\n", o.measured_gain(), o.spent);
     for (std::size_t k = 0; k < o.plan.models.size(); ++k)
       tell("  {:<14} {:>8} samples, correlation {:.4f}, {} each\n",

@@ -9,6 +9,7 @@
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/motion_density.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
+#include "boresight/mechanism/unfollowed_motion.hpp"
 
 namespace boresight {
 namespace {
@@ -36,8 +37,8 @@ bool follow(IdealSolver& solver, double t, IdealState& state, const Mechanism& m
       if (++steps > most_steps) return false;
       if (state.t < t) step *= 2.0;
     } else if ((step *= 0.5) < shortest_step(mechanism.duration())) {
-      throw ComputationError("the ideal motion cannot be followed beyond " + time_text(state.t) +
-                             ": the prescribed motion leaves what the mechanism can reach, or passes a singular pose");
+      throw ComputationError("the ideal motion cannot be followed beyond " + time_text(state.t) + ": " +
+                             why_not_followed(mechanism, state.t, shortest_step(mechanism.duration())));
     }
     work_reached(kFollowing, state.t / mechanism.duration());
   }

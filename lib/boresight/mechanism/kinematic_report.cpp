@@ -12,6 +12,7 @@
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/motion_density.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
+#include "boresight/mechanism/unfollowed_motion.hpp"
 
 namespace boresight {
 namespace {
@@ -201,7 +202,7 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
       if (state.t < t) {
         report.feasible = false;
         report.findings.push_back("the ideal motion cannot be followed beyond t = " + number(state.t) +
-                                  " s: it leaves what the mechanism can reach, or passes a singular pose");
+                                  " s: " + why_not_followed(mechanism, state.t, step));
         break;
       }
     }

@@ -207,9 +207,12 @@ TEST(ErrorAllocation, WorstCaseAndRootSumSquareAreThoseOfHalfZones) {
   std::vector<double> gradient(3);
   EXPECT_NEAR(worst_case_tolerances(deviation, places)(t, gradient), 1e-5 + 2 * 2e-5 + 3 * 1e-5, 1e-15);
   EXPECT_THAT(gradient, testing::ElementsAre(0.5, 1.0, 1.5));
-  const double one_sided = 1.6448536269514722;
+  // What is as likely to either side of nothing has a size: 95 % of it lie within 1.96 deviations, not 1.645.
+  const double two_sided = 1.9599639845400545, one_sided = 1.6448536269514722;
   EXPECT_NEAR(root_sum_square_tolerances(deviation, places, 0.95)(t, {}),
-              one_sided * std::hypot(1e-5 / 3, 2 * 2e-5 / 3, 3 * 1e-5 / 3), 1e-15);
+              two_sided * std::hypot(1e-5 / 3, 2 * 2e-5 / 3, 3 * 1e-5 / 3), 1e-15);
+  EXPECT_EQ(root_sum_square_quantile(0.95, {true, false, true}, 3), root_sum_square_quantile(0.95, {}, 3));
+  EXPECT_NEAR(root_sum_square_quantile(0.95, {}, 3), one_sided, 1e-12);
 }
 
 // A fit to choose beside an error on a curve: the error's tolerance by the closed form, with the fit that is cheapest so.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "boresight/rungs/run_result.hpp"
 #include "boresight_analyses/montecarlo/estimates.hpp"
 #include "closed_form.hpp"
 
@@ -222,6 +223,31 @@ TEST(Estimates, ARequirementThatIsNotMetIsRarelyShownToBe) {
   }
   EXPECT_LE(met, kStudies / 10 + 3 * 6);  // at most one in ten, and three standard deviations of the count
   EXPECT_GT(met, kStudies / 50);
+}
+
+// What the samples show holds of the rung that made them. Where it may be off by more than is left to the limit, nothing is shown of the mechanism.
+TEST(Estimates, ARequirementIsNotMetByLessThanTheModelMayBeOff) {
+  MonteCarloPlan plan = sum_plan(400);
+  plan.requirement = Requirement{1.0, 0.95, 0.9};
+  const std::vector<double> values(400, 0.95);
+  const auto verdict = [&](const ModelError& model) { return *estimate(values, plan, model).requirement; };
+  EXPECT_TRUE(verdict({}).met);
+  EXPECT_TRUE(verdict({.discretisation = 0.01, .rung = 0.03}).met);
+  const RequirementVerdict undone = verdict({.discretisation = 0.03, .rung = 0.03});
+  EXPECT_FALSE(undone.met);
+  EXPECT_TRUE(undone.met_by_samples);
+  EXPECT_NEAR(undone.model_error, 0.06, 1e-15);
+  EXPECT_EQ(undone.within_error->value, 0.0);
+  EXPECT_TRUE(verdict({.discretisation = kNotMeasured, .rung = kNotMeasured}).met) << "nothing is known of the model";
+  // Each sample by its own error; a few that may be off by the whole of themselves do not undo what the rest shows.
+  ModelError own{.rung = 0.05};
+  own.rung_of_sample.assign(400, 0.01);
+  for (int k = 0; k < 5; ++k) own.rung_of_sample[static_cast<std::size_t>(80 * k)] = 10.0;
+  EXPECT_TRUE(verdict(own).met);
+  EXPECT_NEAR(verdict(own).within_error->value, 395.0 / 400.0, 1e-12);
+  // A pilot's measure of the asked level takes the place of both.
+  EXPECT_FALSE(verdict({.rung_of = {{headline_of(plan), 0.1}}}).met);
+  EXPECT_TRUE(verdict({.discretisation = 0.5, .rung = 0.5, .rung_of = {{headline_of(plan), 0.001}}}).met);
 }
 
 }  // namespace montecarlo_test

@@ -210,6 +210,21 @@ position = { unit = "mm", x = "0", y = "0", z = "0" }
 }
 
 // An arm whose end is led to its pose keeps the elbow that it is drawn with.
+// A slip of the unit or the frequency: the pose is a good one, and what is wrong is said.
+TEST(IdealMotion, SaysWhereALawIsTooFastForAnyStep) {
+  for (const char* law : {"1e9*t", "0.01*sin(1e8*t)"}) {
+    const auto mechanism = std::make_shared<const Mechanism>(
+        read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml", {{"motion.drives.A", law}}));
+    try {
+      IdealMotion::kinematic(*mechanism);
+      FAIL() << law;
+    } catch (const ComputationError& e) {
+      EXPECT_NE(std::string(e.what()).find("fast"), std::string::npos) << e.what();
+      EXPECT_EQ(std::string(e.what()).find("singular"), std::string::npos) << e.what();
+    }
+  }
+}
+
 TEST(IdealMotion, AnArmLedByItsEndKeepsItsElbow) {
   const double bend = 0.3;
   MechanismDescription m;
