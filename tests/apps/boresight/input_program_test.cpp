@@ -86,6 +86,31 @@ TEST_F(InputProgram, AParameterGivenTwiceThroughAWildcardIsRefusedByEveryVerb) {
         "distribution = { normal = { mean = \"0.2 mm\", sd = \"0.01 mm\" } }\n");
 }
 
+// What the study gives in place of the mechanism's own value makes that of --set one that nothing reads.
+TEST_F(InputProgram, ASettingOfWhatTheStudyVariesIsRefusedByEveryVerb) {
+  const std::string head =
+      "format = 1\nmechanism = \"" + mechanism_ + "\"\n[index]\nquantity = \"position_error\"\nstatistic = \"max\"\n";
+  const std::string scatter =
+      "[[random]]\nparameter = \"clearance.F1.radial\"\ndistribution = { normal = { mean = \"0.2 mm\", sd = \"0.01 mm\" } "
+      "}\n";
+  const auto varied = [&](const std::string& verb, const std::string& rest) {
+    std::ofstream(folder_ / "study.toml") << head << rest;
+    expect_refused({verb, "study.toml", "--set", "clearance.F1.radial=0.1mm"},
+                   "--set clearance.F1.radial=0.1mm: clearance.F1.radial: found a value that would have no effect: the "
+                   "study varies it (study.toml:");
+  };
+  varied("sweep", "[[sweep.axis]]\nparameter = \"clearance.F1.radial\"\nvalues = [\"0.1 mm\", \"0.2 mm\"]\n");
+  varied("match", "[[match.variable]]\nparameter = \"clearance.F1.radial\"\nfrom = \"0.1 mm\"\nto = \"0.3 mm\"\n");
+  varied("allocate",
+         "[allocate]\nrequirement = { limit = \"0.3 mm\", probability = 0.95, confidence = 0.9 }\n[[allocate.joint]]\n"
+         "parameter = \"clearance.F1.radial\"\nleast = \"2 um\"\nprocesses = [{ name = \"p\", tolerance = \"0.05 mm\", "
+         "price = 1 }]\n");
+  varied("montecarlo", "[montecarlo]\nsamples = 10\n" + scatter);
+  varied("sensitivity", "[sensitivity]\nsamples = 16\n" + scatter);
+  varied("budget", "[budget]\nmembers = 10\n" + scatter);
+  varied("serve", scatter);
+}
+
 TEST_F(InputProgram, HistoriesThatMemoryCannotHoldAreRefusedWithTheirSize) {
   std::vector<std::string> arguments = {"run", mechanism_, "--sample", "0.6 us", "--rung", "perturbation"};
   for (const char* body : {"rod1", "rod2", "rod3", "tube1", "tube2", "crank1"})
