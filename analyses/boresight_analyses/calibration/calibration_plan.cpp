@@ -173,8 +173,7 @@ void refuse_law_without_numbers(const CalibrationPlan& plan, const MechanismDesc
 }
 
 // Which fitted parameter a setting would hold at a value of its own; "": none.
-std::string also_fitted(const MechanismDescription& mechanism, const VariedPaths& fitted,
-                        const std::string& path) {
+std::string also_fitted(const MechanismDescription& mechanism, const VariedPaths& fitted, const std::string& path) {
   try {
     for (const std::string& single : single_paths(mechanism, path))
       if (fitted.contains(single)) return single;

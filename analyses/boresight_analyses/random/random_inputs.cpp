@@ -281,8 +281,7 @@ RandomInputs read_random_inputs(Cursor& root, const MechanismDescription& mechan
     }
     // A tolerance zone lies around what the mechanism says.
     Cursor distribution = entry.table("distribution");
-    const OwnValue own =
-        distribution.has("cylinder") || distribution.has("planes") ? OwnValue::read : OwnValue::unread;
+    const OwnValue own = distribution.has("cylinder") || distribution.has("planes") ? OwnValue::read : OwnValue::unread;
     const std::string key = entry.has("parameters") ? "parameters" : "parameter";
     entry.finish();
     for (std::size_t i = before; i < inputs.size(); ++i) {

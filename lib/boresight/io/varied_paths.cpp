@@ -25,8 +25,7 @@ void VariedPaths::take(const Origin& origin, const std::string& key, const std::
                        OwnValue own, const std::string& once) {
   for (const std::string& path : paths)
     for (const std::string& single : single_paths(mechanism_, path)) {
-      if (!taken_.insert(single).second)
-        throw InputError(origin, key, in_quotes(single) + " a second time", once);
+      if (!taken_.insert(single).second) throw InputError(origin, key, in_quotes(single) + " a second time", once);
       if (own == OwnValue::unread) replaced_.insert(single);
     }
   if (own == OwnValue::unread) refuse_settings_without_effect(origin);
