@@ -73,6 +73,19 @@ std::string unknown_option(const std::vector<std::string>& left_over, const std:
   return name + " is not an option of " + verb + (nearest.empty() ? "" : "; did you mean " + nearest + "?");
 }
 
+// An option before any verb that the program itself does not have.
+std::string unknown_option_of_program(const std::string& word, const CLI::App& app,
+                                      const std::vector<CLI::App*>& commands) {
+  const std::string name = word.substr(0, word.find('='));
+  for (const CLI::App* command : commands)
+    if (command->get_option_no_throw(name) != nullptr)
+      return "found " + name + " before a verb, expected it behind one: boresight VERB FILE " + name;
+  std::vector<std::string> own;
+  for (const CLI::Option* known : app.get_options()) own.push_back("--" + known->get_lnames().front());
+  const std::string nearest = nearest_name(name, own);
+  return name + " is not an option of boresight" + (nearest.empty() ? "" : "; did you mean " + nearest + "?");
+}
+
 int run_program(int argc, char** argv) {
   ProgramOptions program;
   auto& [verbs, options, shell, app, commands, completion] = program;
@@ -82,6 +95,9 @@ int run_program(int argc, char** argv) {
       std::any_of(verbs.begin(), verbs.end(), [&](const auto& verb) { return verb->name() == argv[1]; }) ||
       completion->get_name() == argv[1];
   if (argv[1][0] != '-' && !known) return unknown_verb(argv[1], verbs);
+  const std::string first(argv[1]);
+  if (first[0] == '-' && app.get_option_no_throw(first.substr(0, first.find('='))) == nullptr)
+    return fail(kBadInput, unknown_option_of_program(first, app, commands) + "; boresight --help tells more");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError&) {
@@ -92,6 +108,7 @@ int run_program(int argc, char** argv) {
     return fail(kBadInput, std::string(error.what()) + "; boresight " +
                                (argv[1][0] == '-' ? "" : argv[1] + std::string(" ")) + "--help tells more");
   }
+  for (const CLI::App* parsed : app.get_subcommands()) refuse_empty_values(*parsed);
   if (completion->parsed()) {
     const auto& shells = completion_shells();
     if (std::find(shells.begin(), shells.end(), shell) == shells.end())

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <set>
 
+#include "boresight/io/varied_paths.hpp"
 #include "boresight/keys/parameter_unit.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/keys/value_fault.hpp"
@@ -258,13 +258,12 @@ AllocationPlan read_allocation_plan(Cursor& root, const Study& study, const Mech
   plan.zone = table.choice("zone") == "uniform" ? ZoneLaw::uniform : ZoneLaw::normal;
   std::vector<AllocationOption> common;
   if (table.has("fits")) common = read_fits(table, plan.zone);
-  std::set<std::string> taken;
+  VariedPaths taken(mechanism);
   const auto take = [&](const Cursor& table_of, AllocationEntry entry) {
-    for (const std::string& path : entry.paths)
-      for (const std::string& single : single_paths(mechanism, path))
-        if (!taken.insert(single).second)
-          table_of.fail_found("parameter", in_quotes(single) + " a second time",
-                              entry.is_error ? "each error once" : "each joint once");
+    // An error's tolerance lies around what the mechanism says of it.
+    taken.take(table_of.origin("parameter"), table_of.path("parameter"), entry.paths,
+               entry.is_error ? OwnValue::read : OwnValue::unread,
+               entry.is_error ? "each error once" : "each joint once");
     plan.entries.push_back(std::move(entry));
   };
   for (Cursor& entry : table.tables("joint")) take(entry, read_joint(entry, common, plan.zone, mechanism, accepts));

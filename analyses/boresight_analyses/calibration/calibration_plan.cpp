@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <set>
 
 #include "boresight/contact/normal_law.hpp"
 #include "boresight/io/referred_file.hpp"
+#include "boresight/io/varied_paths.hpp"
 #include "boresight/keys/parameter_unit.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -173,8 +173,7 @@ void refuse_law_without_numbers(const CalibrationPlan& plan, const MechanismDesc
 }
 
 // Which fitted parameter a setting would hold at a value of its own; "": none.
-std::string also_fitted(const MechanismDescription& mechanism, const std::set<std::string>& fitted,
-                        const std::string& path) {
+std::string also_fitted(const MechanismDescription& mechanism, const VariedPaths& fitted, const std::string& path) {
   try {
     for (const std::string& single : single_paths(mechanism, path))
       if (fitted.contains(single)) return single;
@@ -232,12 +231,11 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
     }
     noise.finish();
   }
-  std::set<std::string> fitted;
+  VariedPaths fitted(mechanism);
   for (Cursor& parameter : table.tables("parameter")) {
     plan.parameters.push_back(read_parameter(parameter, mechanism));
-    for (const std::string& single : single_paths(mechanism, plan.parameters.back().path))
-      if (!fitted.insert(single).second)
-        parameter.fail_found("path", "\"" + single + "\" a second time", "each parameter once");
+    // Data are made with the mechanism's own values: what a fit has no use for calibration_problem() says.
+    fitted.take(parameter.origin("path"), parameter.path("path"), {plan.parameters.back().path}, OwnValue::read);
   }
   table.require(!plan.parameters.empty(), "parameter", "at least one [[calibrate.parameter]]");
   for (Cursor& run : table.tables("run")) {
@@ -275,6 +273,9 @@ CalibrationProblem calibration_problem(
       run.data.value.row(static_cast<Eigen::Index>(i)).setConstant(std::numeric_limits<double>::quiet_NaN());
   const Mechanism& mechanism = *problem.runs.front().mechanism;
   for (const PlannedParameter& p : plan.parameters) check_values(p, mechanism, mechanism_with);
+  VariedPaths fitted(mechanism.description());
+  for (const PlannedParameter& p : plan.parameters)
+    fitted.take(p.origin, p.path, {p.path}, p.start ? OwnValue::unread : OwnValue::read);
   for (const std::string& law : plan.laws) refuse_law_without_numbers(plan, mechanism.description(), law);
   for (const CalibrationRun& run : problem.runs)
     for (int channel : run.data.channels)

@@ -1,8 +1,8 @@
 #include "boresight_analyses/matching/matching_plan.hpp"
 
 #include <algorithm>
-#include <set>
 
+#include "boresight/io/varied_paths.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/parameter_path.hpp"
 #include "boresight_analyses/matching/design_slopes.hpp"
@@ -92,13 +92,10 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
   if (plan.map == 1) table.fail("map", "0, or 2 to 200");
   plan.front = count(table, "front");
 
-  std::set<std::string> taken;
+  VariedPaths taken(mechanism);
   for (Cursor& entry : table.tables("variable")) {
     plan.variables.push_back(read_design_variable(entry, mechanism));
-    for (const std::string& path : plan.variables.back().paths)
-      for (const std::string& single : single_paths(mechanism, path))
-        if (!taken.insert(single).second)
-          entry.fail_found("parameter", "\"" + single + "\" a second time", "each parameter once");
+    taken.take(entry.origin("parameter"), entry.path("parameter"), plan.variables.back().paths);
   }
   if (plan.variables.empty()) table.fail("variable", "at least one [[match.variable]] table: what may be chosen");
   std::vector<BoxSide> sides;

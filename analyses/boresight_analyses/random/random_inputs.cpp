@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "boresight/io/varied_paths.hpp"
 #include "boresight/keys/parameter_unit.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -261,7 +262,7 @@ Parameters RandomInputs::parameters_with(const Mechanism& mechanism, std::span<c
 RandomInputs read_random_inputs(Cursor& root, const MechanismDescription& mechanism,
                                 const std::function<void(const Setting&)>& accepts) {
   RandomInputs inputs;
-  std::set<std::string> taken;  // single paths
+  VariedPaths taken(mechanism);
   for (Cursor& entry : root.tables("random")) {
     entry.only(random_keys());
     if (entry.has("parameter") && entry.has("parameters"))
@@ -278,15 +279,15 @@ RandomInputs read_random_inputs(Cursor& root, const MechanismDescription& mechan
             "a cylinder, of which two parameters are a point, or rows; parameter = [..] gives several one value");
       inputs.parameters.push_back(read_parameter(entry, mechanism, accepts));
     }
+    // A tolerance zone lies around what the mechanism says.
+    Cursor distribution = entry.table("distribution");
+    const OwnValue own = distribution.has("cylinder") || distribution.has("planes") ? OwnValue::read : OwnValue::unread;
+    const std::string key = entry.has("parameters") ? "parameters" : "parameter";
     entry.finish();
-    for (std::size_t i = before; i < inputs.size(); ++i)
-      for (const std::string& path : inputs.parameters[i].paths) {
-        for (const std::string& single : single_paths(mechanism, path))
-          if (!taken.insert(single).second)
-            entry.fail_found(entry.has("parameters") ? "parameters" : "parameter", "\"" + single + "\" a second time",
-                             "each parameter once");
-        inputs.text += path + " ";
-      }
+    for (std::size_t i = before; i < inputs.size(); ++i) {
+      taken.take(entry.origin(key), entry.path(key), inputs.parameters[i].paths, own);
+      for (const std::string& path : inputs.parameters[i].paths) inputs.text += path + " ";
+    }
     inputs.text += "~ " + inputs.text_of(before) + "\n";
   }
   if (inputs.parameters.empty()) root.fail("random", "at least one [[random]] table: what scatters, and how");

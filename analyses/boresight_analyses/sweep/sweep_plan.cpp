@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <set>
 
+#include "boresight/io/varied_paths.hpp"
 #include "boresight/keys/parameter_unit.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/parameter_path.hpp"
@@ -103,16 +104,14 @@ SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism, c
   if (!plan.findings.empty() && !is_3_rrcpr(mechanism))
     sweep.fail("findings",
                "a mechanism of three legs of R, R, C, P and R, as that paper's; leave findings out for others");
-  std::set<std::string> swept;
+  VariedPaths swept(mechanism);
   std::vector<BoxSide> sides;
   std::size_t points = 1;
   for (Cursor& axis : sweep.tables("axis")) {
     plan.axes.push_back(read_axis(axis, mechanism));
     sides.push_back(side_of(axis, plan.axes.back()));
-    for (const std::string& path : plan.axes.back().parameters)
-      for (const std::string& single : single_paths(mechanism, path))
-        if (!swept.insert(single).second)
-          axis.fail_found("parameter", "\"" + single + "\" a second time", "each parameter on one axis");
+    swept.take(axis.origin("parameter"), axis.path("parameter"), plan.axes.back().parameters, OwnValue::unread,
+               "each parameter on one axis");
     points *= plan.axes.back().values.size();
     if (points > kMostSweepPoints)
       axis.fail_found("values", std::to_string(points) + " points in all",

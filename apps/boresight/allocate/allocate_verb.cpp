@@ -170,12 +170,13 @@ class AllocateVerb : public Verb {
     const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
     AllocationPlan plan = read_allocation_plan(input.root, study, mechanism->description(), input.trial);
     check_rung_name(command.rung);
-    const RunOptions asked = motion_.run_options(*mechanism, command.rung);
+    RungChoice choice = rung_for(command, *mechanism);
+    // The search itself is linear; what is followed confirms it.
+    const RunOptions asked = motion_.run_options(*mechanism, choice.name);
     const VerbStudy own(command, mechanism, study.index, study.accuracy, asked,
                         identity_of_study(command, *mechanism, plan.sample_text(study), motion_.identity()));
     const OutputDirectory& out = own.out();
 
-    RungChoice choice = rung_for(command, *mechanism);
     const std::vector<std::vector<double>> gaps = corner_gaps(plan);
     double misfit = 0.0;
     const LinearDeviation deviation = linear_deviation(mechanism, plan, gaps[0], study.index, misfit);

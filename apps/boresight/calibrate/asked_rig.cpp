@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <utility>
 
 #include "boresight/io/csv_fields.hpp"
 #include "boresight/io/text_lines.hpp"
@@ -10,6 +12,7 @@
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "command_line/command.hpp"
+#include "command_line/option_range.hpp"
 #include "results/output_directory.hpp"
 
 namespace boresight::app {
@@ -31,11 +34,11 @@ std::vector<int> channels_called(const std::string& text) {
   for (const std::string& field : csv_fields(text)) {
     const auto found = std::find(known.begin(), known.end(), trimmed(field));
     if (found == known.end())
-      throw InputError(Origin{"command line", 0}, "--make-channels", in_quotes(trimmed(field)),
+      throw InputError(kCommandLine, "--make-channels", in_quotes(trimmed(field)),
                        "channels of pointing data, such as \"bx,by,bz\"", nearest_name(trimmed(field), known));
     const int channel = static_cast<int>(found - known.begin());
     if (std::find(channels.begin(), channels.end(), channel) != channels.end())
-      throw InputError(Origin{"command line", 0}, "--make-channels", in_quotes(*found) + " twice", "each channel once");
+      throw InputError(kCommandLine, "--make-channels", in_quotes(*found) + " twice", "each channel once");
     channels.push_back(channel);
   }
   return channels;
@@ -45,12 +48,8 @@ std::vector<int> channels_called(const std::string& text) {
 
 SyntheticRig AskedRig::rig() const {
   SyntheticRig rig;
-  rig.seed = seed;
-  constexpr std::uint64_t kMostSamples = 1'000'000;
-  if (samples > kMostSamples)
-    throw InputError(Origin{"command line", 0}, "--make-samples", std::to_string(samples),
-                     "at most " + std::to_string(kMostSamples));
-  rig.samples = static_cast<int>(samples);
+  if (!seed.empty()) rig.seed = whole_number("--make-seed", seed, 0, std::numeric_limits<std::uint64_t>::max());
+  if (!samples.empty()) rig.samples = static_cast<int>(whole_number("--make-samples", samples, 1, 1'000'000));
   const auto unit_of_channel = [](int c) { return std::string(channel_names()[static_cast<std::size_t>(c)].si_unit); };
   const bool angle = is_quantity(noise, kAngle), length = is_quantity(noise, kLength);
   if (!channels.empty())
@@ -63,7 +62,7 @@ SyntheticRig AskedRig::rig() const {
     rig.deviation = positive_quantity("--make-data", noise, angle ? kAngle : kLength);
     for (const int c : rig.channels)
       if (unit_of_channel(c) != (angle ? "rad" : "m"))
-        throw InputError(Origin{"command line", 0}, "--make-data",
+        throw InputError(kCommandLine, "--make-data",
                          in_quotes(noise) + " of noise on " + channel_names()[static_cast<std::size_t>(c)].name,
                          "a share, such as \"1 %\", for channels of other units");
   } else {
@@ -75,9 +74,20 @@ SyntheticRig AskedRig::rig() const {
   for (std::size_t c = 0; c < rig.channels.size(); ++c)
     if (rig.channels[c] < 3) rig.bias[static_cast<Eigen::Index>(c)] = displaced;
   if (std::none_of(rig.channels.begin(), rig.channels.end(), [](int c) { return c < 3; }))
-    throw InputError(Origin{"command line", 0}, "--make-offset", in_quotes(offset),
+    throw InputError(kCommandLine, "--make-offset", in_quotes(offset),
                      "channels that measure displacements, by --make-channels");
   return rig;
+}
+
+void AskedRig::refuse_without_noise() const {
+  if (!noise.empty()) return;
+  for (const auto& [option, text] : {std::pair{"--make-offset", &offset},
+                                     {"--make-seed", &seed},
+                                     {"--make-channels", &channels},
+                                     {"--make-samples", &samples}})
+    if (!text->empty())
+      throw InputError(kCommandLine, option, in_quotes(*text) + " without --make-data",
+                       "--make-data NOISE too, which writes the data; a calibration reads them as they are");
 }
 
 void check_that_data_may_be_written(const std::filesystem::path& file) {

@@ -10,12 +10,12 @@
 namespace boresight::app {
 
 struct AskedRig {
-  std::string noise, offset, channels;  // as typed; "": not given
-  std::uint64_t seed = 1;
-  std::uint64_t samples = 0;
+  std::string noise, offset, channels, seed, samples;  // as typed; "": not given
 
   // Throws InputError naming the option.
   SyntheticRig rig() const;
+  // Throws InputError for what is said of a rig where none is asked for.
+  void refuse_without_noise() const;
 };
 
 // Measured data may have taken a year: throws OutputDirectoryError where a file is there that --make-data did not write.

@@ -74,6 +74,7 @@ class CalibrateVerb : public Verb {
 
   int execute(const Command& command) override {
     const Stopwatch watch;
+    asked_.refuse_without_noise();
     Document document = Document::from_file(command.file);
     Cursor root(document);
     const Study study = read_study(root, document.content_hash());

@@ -43,9 +43,8 @@ int failed(const Command& command, const std::string& reason);
 
 // The options every verb has, as CLI11 fills them in; command() checks them and throws InputError.
 struct CommandOptions {
-  std::string file, out, rung = "auto", accuracy;
+  std::string file, out, rung = "auto", accuracy, jobs;
   std::vector<std::string> settings;
-  std::optional<int> jobs;
   bool quiet = false;
   bool json = false;
 
@@ -62,16 +61,19 @@ struct MotionOptions {
   void declare(CLI::App& app, bool with_poses);
   void declare_model(CLI::App& app);  // step, formulation, stabilisation alone: for verbs that keep no histories
   // Throws InputError for a value that is no duration, an unknown body, an unknown word, and for what the rung would
-  // refuse in every run; of "auto", what the rung that has most would.
-  RunOptions run_options(const Mechanism& mechanism, const std::string& rung) const;
+  // refuse in every run; of "auto", what the rung that has most would. And for an option that a rung asked for by name does not
+  // read, but for those that are read besides ("step", ...): by other rungs that the verb goes on to.
+  RunOptions run_options(const Mechanism& mechanism, const std::string& rung,
+                         const std::vector<std::string>& read_besides = {}) const;
   // Whether an option was given that not every rung has: `auto` then takes multibody, which has them all.
   bool asks_for_multibody() const;
   nlohmann::json identity() const;  // what of them changes results
   nlohmann::json model_identity() const;
-  // The same as they are typed for a shell, but for the step, each with a space before it.
-  std::string model_text() const;
+  // Those that this rung reads, as they are typed for a shell, but for the step, each with a space before it.
+  std::string model_text(const std::string& rung) const;
 
  private:
+  void refuse_unread(const std::string& rung, const std::vector<std::string>& read_besides) const;
   void set_sample_spacing(RunOptions& options, const Mechanism& mechanism, double most_samples) const;
   bool keeps_histories_ = false;
   const CLI::Option* sample_option_ = nullptr;

@@ -9,11 +9,6 @@ void declare_option(CLI::App& verb, const std::string& name, std::string& value,
   verb.add_option(name, value, description)->type_name(type);
 }
 
-void declare_option(CLI::App& verb, const std::string& name, std::uint64_t& value, const std::string& description,
-                    const std::string& type) {
-  verb.add_option(name, value, description)->type_name(type);
-}
-
 void declare_option_with_default(CLI::App& verb, const std::string& name, std::string& value,
                                  const std::string& description, const std::string& type) {
   verb.add_option(name, value, description)->type_name(type)->capture_default_str();

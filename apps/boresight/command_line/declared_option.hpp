@@ -2,7 +2,6 @@
 // those takes a compiler six seconds longer.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 namespace CLI {
@@ -13,8 +12,6 @@ namespace boresight::app {
 
 // value: where the option's value lands. type: what --help calls it.
 void declare_option(CLI::App& verb, const std::string& name, std::string& value, const std::string& description,
-                    const std::string& type);
-void declare_option(CLI::App& verb, const std::string& name, std::uint64_t& value, const std::string& description,
                     const std::string& type);
 // --help says the value that it has where none is given, too.
 void declare_option_with_default(CLI::App& verb, const std::string& name, std::string& value,

@@ -1,5 +1,8 @@
 #include "command_line/program_options.hpp"
 
+#include "boresight/keys/units.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "command_line/option_range.hpp"
 #include "command_line/program_help.hpp"
 
 namespace boresight::app {
@@ -40,6 +43,14 @@ ProgramOptions::ProgramOptions()
   completion->group(kOtherVerbs);
   completion->add_option("SHELL", shell, "bash, zsh or fish")->required()->type_name("");
   completion->footer("Example:\n  source <(boresight completion bash)");
+}
+
+void refuse_empty_values(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& value : option->results())
+      if (value.empty())
+        throw InputError(kCommandLine, option->get_name(), in_quotes(value),
+                         option->nonpositional() ? "a value, or no " + option->get_name() : option->get_description());
 }
 
 std::string help_of_program() { return ProgramOptions().app.help(); }

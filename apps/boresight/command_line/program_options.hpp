@@ -22,4 +22,7 @@ struct ProgramOptions {
   ProgramOptions();
 };
 
+// An unset variable of a shell leaves an empty text, which is no value. Throws InputError naming the option, or what the verb is called on.
+void refuse_empty_values(const CLI::App& command);
+
 }  // namespace boresight::app

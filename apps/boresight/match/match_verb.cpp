@@ -98,7 +98,7 @@ class MatchVerb : public Verb {
     const MatchingPlan plan =
         read_matching_plan(input.root, study, mechanism->description(), input.trial, input.trial_all);
     check_rung_name(command.rung);
-    const RunOptions asked = motion_.run_options(*mechanism, command.rung);
+    const RunOptions asked = run_options(command.rung, *mechanism);
 
     nlohmann::json options = motion_.identity();
     if (study.accuracy) options["study_accuracy"] = *study.accuracy;
@@ -307,6 +307,18 @@ class MatchVerb : public Verb {
            d.objective, d.agrees ? ", the same answer" : "");
     for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
     tell("  report: {}\n", (out.path() / "report.html").string());
+  }
+
+  // What journals at rest do not read, the rung that confirms does.
+  RunOptions run_options(const std::string& rung, const Mechanism& mechanism) const {
+    if (rung == "auto") return motion_.run_options(mechanism, rung);
+    const std::string upper = next_rung_up(rung, mechanism);
+    std::vector<std::string> read_above;
+    for (const char* option : {"step", "integrator", "tolerance", "formulation", "stabilisation"})
+      if (why_unread(option, upper).empty()) read_above.emplace_back(option);
+    RunOptions options = motion_.run_options(mechanism, rung, read_above);
+    if (integrator_names(rung).empty()) check_run_options(options, upper, mechanism);
+    return options;
   }
 
   MotionOptions motion_;

@@ -96,6 +96,8 @@ class MonteCarloVerb : public Verb {
     try {
       question = read_montecarlo_question(command.file, command.settings);
       check_rung_name(command.rung);
+      if (command.rung != "auto" && (question.plan.fidelities || question.plan.tail))
+        throw InputError({"command line", 0}, "--rung", in_quotes(command.rung), "none: the study names its rungs");
       run = motion_.run_options(*question.mechanism, command.rung);
     } catch (const InputError&) {
       if (first) throw;
@@ -320,11 +322,12 @@ class MonteCarloVerb : public Verb {
     std::string text = "boresight run " + shell_word(command.file);
     for (const Setting& setting : command.settings) text += " --set " + shell_word(setting.path + "=" + setting.value);
     text += " --rung " + model.rung();
-    if (model.step() > 0.0) text += fmt::format(" --step \"{:.17g} s\"", model.step());
+    if (model.step() > 0.0 && why_unread("step", model.rung()).empty())
+      text += fmt::format(" --step \"{:.17g} s\"", model.step());
     if (model.batch() > 1) text += " --integrator rosenbrock";  // the lanes' method; its steps are not the same
     if (!choice.integrator.empty() && motion_.integrator.empty())
       text += fmt::format(" --integrator {} --tolerance {:g}", choice.integrator, choice.tolerance);
-    text += motion_.model_text();
+    text += motion_.model_text(model.rung());
     return text + " --sample-number";
   }
 

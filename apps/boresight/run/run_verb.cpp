@@ -39,6 +39,9 @@ namespace {
 constexpr double kOfAnother =
     1.0;  // of an index that is printed beside the one asked for: what its rung leaves out is all of it
 
+// What --compare hands on to rungs other than the one asked for: run_other().
+const std::vector<std::string> kReadByOthers = {"step", "formulation", "stabilisation"};
+
 void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
            const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
            const std::optional<Predictability>& predictability, const MeasuredError& measured,
@@ -169,7 +172,8 @@ class RunVerb : public Verb {
     const auto mechanism = std::make_shared<const Mechanism>(
         replayed_ ? *replayed_ : Mechanism(read_mechanism(command.file, command.settings)));
     check_rung_name(command.rung);
-    RunOptions options = motion_.run_options(*mechanism, command.rung);
+    RunOptions options =
+        motion_.run_options(*mechanism, command.rung, compare_ ? kReadByOthers : std::vector<std::string>());
     check_step_error();
     IndexChoice index = index_named("--index", index_.empty() ? "position_error.max" : index_);
     index.start = options.start = start_.empty() ? replayed_start_ : positive_quantity("--start", start_, kDuration);

@@ -2,6 +2,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <utility>
+
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/option_check.hpp"
@@ -188,6 +190,14 @@ void bind_run(py::module_& module) {
          const std::string& rung, double step, double sample, const std::string& integrator, double tolerance,
          const std::string& formulation, const std::string& stabilisation, double start,
          const std::vector<std::string>& poses, bool events, const py::object& progress) {
+        check_rung_name(rung);
+        for (const auto& [option, given] : {std::pair{"step", step > 0.0},
+                                            {"integrator", !integrator.empty()},
+                                            {"tolerance", tolerance > 0.0},
+                                            {"formulation", !formulation.empty()},
+                                            {"stabilisation", !stabilisation.empty()}})
+          if (const std::string why = rung == "auto" ? "" : why_unread(option, rung); given && !why.empty())
+            throw InputError({}, option, "one", "none: " + why);
         RunOptions options;
         options.step = step;
         options.sample_spacing = sample;

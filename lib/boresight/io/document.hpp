@@ -16,11 +16,6 @@
 
 namespace boresight {
 
-// One `--set PATH=VALUE`.
-struct Setting {
-  std::string path, value;
-};
-
 // "PATH=VALUE" taken apart. Throws InputError if there is no "=" or no path.
 Setting parse_setting(const std::string& text);
 
@@ -52,6 +47,7 @@ class Document {
   const Node& root() const { return root_; }
   const std::string& filename() const { return filename_; }
   const std::string& content_hash() const { return content_hash_; }
+  const std::vector<Setting>& settings() const { return settings_; }
 
   // The last setting that applies to this path, or nullptr. Marks it, and any earlier ones, as used.
   const Setting* setting_for(const std::string& path);

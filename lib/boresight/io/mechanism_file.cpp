@@ -18,6 +18,7 @@ MechanismDescription read(Document& document, std::vector<AssumedValue>* assumed
   MechanismDescription mechanism;
   mechanism.origin = {document.filename(), 0};
   mechanism.content_hash = document.content_hash();
+  mechanism.settings = document.settings();
   root.integer("format");
   mechanism.name = root.text("name", document.filename());
   root.require(!mechanism.name.empty(), "name", "a name, or no key at all");

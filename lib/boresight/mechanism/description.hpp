@@ -24,6 +24,11 @@ struct Origin {
   int line = 0;
 };
 
+// One `--set PATH=VALUE`.
+struct Setting {
+  std::string path, value;
+};
+
 struct BodyDescription {
   std::string name;
   double mass = 0.0;                   // [kg]
@@ -190,6 +195,7 @@ struct MechanismDescription {
   MotionDescription motion;
   Origin origin;             // the file
   std::string content_hash;  // of the file's bytes and the settings applied to it, hexadecimal; "" if not from a file
+  std::vector<Setting> settings;  // that were applied to the file
 };
 
 }  // namespace boresight

@@ -53,6 +53,13 @@ OptionRefused::OptionRefused(const std::string& of, const std::string& given, co
       expected(wanted),
       nearest(meant) {}
 
+std::string why_unread(const std::string& option, const std::string& rung) {
+  if (integrator_names(rung).empty()) return "the " + rung + " rung takes no steps";
+  if ((option == "formulation" || option == "stabilisation") && rung != "multibody")
+    return "the " + rung + " rung has equations of its own; the multibody rung has " + option + "s";
+  return "";
+}
+
 void check_options(const RunOptions& options, const std::string& rung, const Mechanism& mechanism,
                    const Parameters& parameters) {
   const std::vector<std::string> own = integrator_names(rung);

@@ -20,6 +20,9 @@ class OptionRefused : public std::invalid_argument {
       nearest;  // option: "integrator", ...; nearest: the name that may have been meant
 };
 
+// Why a rung does not read an option ("step", "integrator", "tolerance", "formulation", "stabilisation"), for whoever named both; "": it does.
+std::string why_unread(const std::string& option, const std::string& rung);
+
 // Throws OptionRefused. Rungs that take no steps ignore what steps are told, but not a misspelt word.
 void check_options(const RunOptions& options, const std::string& rung, const Mechanism& mechanism,
                    const Parameters& parameters);

@@ -51,15 +51,60 @@ TEST_F(InputProgram, OptionsOutOfAllProportionAreRefusedByName) {
   };
   for (const char* value : {"0 s", "-1 ms", "1e-300 s", "1e300 s", "1 fs", "2 s"})
     expect_refused(run("--step", value), "--step");
-  for (const char* value : {"0 s", "-1 ms", "1e-300 s", "1e300 s", "1 ns"})
+  for (const char* value : {"0 s", "-1 ms", "1e-300 s", "1e300 s", "1 ns", "3 s"})
     expect_refused(run("--sample", value), "--sample");
+  expect_refused(run("--sample", "1e3 s"), "found \"1e3 s\", expected at most the motion's duration");
   for (const char* value : {"0.01", "0 %", "-1 %", "1e-300 %", "1e300 %", "1 mm"})
     expect_refused(run("--accuracy", value), "--accuracy");
-  for (const char* value : {"-1", "5000"}) expect_refused(run("--jobs", value), "--jobs");
+  for (const char* value : {"-1", "0", "5000", "1.5", "two"})
+    expect_refused(run("--jobs", value),
+                   "--jobs: found \"" + std::string(value) + "\", expected a whole number from 1 to 4096");
   for (const char* value : {"0 %", "-1 %", "1e-300 %", "1e300 %"})
     expect_refused({"run", four_bar_, "--integrator", "dopri5", "--tolerance", value}, "--tolerance");
+  expect_refused(run("--tolerance", "-1"), "--tolerance: found \"-1\"");
   for (const char* value : {"0 s", "1e-300 s", "1e300 s"})
     expect_refused({"chart", four_bar_, "--time", value}, "--time");
+}
+
+TEST_F(InputProgram, AnOptionThatTheNamedRungDoesNotReadIsRefused) {
+  std::ofstream(folder_ / "sweep.toml")
+      << "format = 1\nmechanism = \"" << four_bar_
+      << "\"\n[[sweep.axis]]\nparameter = \"clearance.D.radial\"\nvalues = [\"0.1 mm\"]\n";
+  for (const std::vector<std::string>& head :
+       {std::vector<std::string>{"run", four_bar_}, std::vector<std::string>{"sweep", "sweep.toml"}}) {
+    const auto refused = [&](const char* rung, const char* option, const char* value, const std::string& why) {
+      std::vector<std::string> arguments = head;
+      arguments.insert(arguments.end(), {"--rung", rung, option, value});
+      expect_refused(arguments, std::string(option) + ": found \"" + value + "\", expected none: the " + rung + why);
+    };
+    for (const char* rung : {"quasistatic", "envelope"}) {
+      refused(rung, "--step", "1 us", " rung takes no steps");
+      refused(rung, "--tolerance", "1e-3", " rung takes no steps");
+      refused(rung, "--formulation", "paper", " rung takes no steps");
+    }
+    refused("perturbation", "--formulation", "paper", " rung has equations of its own");
+    refused("perturbation", "--stabilisation", "projection", " rung has equations of its own");
+  }
+  // Those that are compared read them.
+  const Ended compared = call({"run", four_bar_, "--rung", "quasistatic", "--step", "10 us", "--formulation", "paper",
+                               "--compare", "--set", "motion.duration=5ms", "--step-error", "off", "--out", "out"});
+  EXPECT_EQ(compared.status, 0) << compared.err;
+}
+
+// As an unset variable of a shell leaves it.
+TEST_F(InputProgram, AnEmptyValueIsRefusedAndNotTakenForNone) {
+  for (const char* option : {"--step", "--sample", "--integrator", "--tolerance", "--formulation", "--stabilisation",
+                             "--pose", "--set", "--out", "--rung", "--accuracy", "--jobs", "--sample-number",
+                             "--nonlinear", "--start", "--step-error", "--index"})
+    expect_refused({"run", four_bar_, option, ""}, std::string(option) + ": found \"\", expected a value");
+  expect_refused({"check", ""}, "FILE: found \"\", expected the mechanism file");
+  expect_refused({"calibrate", "study.toml", "--make-data", ""}, "--make-data: found \"\"");
+  expect_refused({"montecarlo", "study.toml", "--from", ""}, "--from: found \"\"");
+}
+
+TEST_F(InputProgram, AnUnknownOptionBeforeAnyVerbIsNamed) {
+  expect_refused({"--hlep"}, "--hlep is not an option of boresight; did you mean --help?");
+  expect_refused({"--rung", "multibody", "run", four_bar_}, "found --rung before a verb");
 }
 
 // A wildcard names a parameter as its own path does: which of two values would hold would hang on their order.
@@ -84,6 +129,32 @@ TEST_F(InputProgram, AParameterGivenTwiceThroughAWildcardIsRefusedByEveryVerb) {
   twice("calibrate", "", "calibrate.parameter", "path", "");
   twice("montecarlo", "[montecarlo]\nsamples = 10\n", "random", "parameter",
         "distribution = { normal = { mean = \"0.2 mm\", sd = \"0.01 mm\" } }\n");
+}
+
+// What the study gives in place of the mechanism's own value makes that of --set one that nothing reads.
+TEST_F(InputProgram, ASettingOfWhatTheStudyVariesIsRefusedByEveryVerb) {
+  const std::string head =
+      "format = 1\nmechanism = \"" + mechanism_ + "\"\n[index]\nquantity = \"position_error\"\nstatistic = \"max\"\n";
+  const std::string scatter =
+      "[[random]]\nparameter = \"clearance.F1.radial\"\ndistribution = { normal = { mean = \"0.2 mm\", sd = \"0.01 "
+      "mm\" } "
+      "}\n";
+  const auto varied = [&](const std::string& verb, const std::string& rest) {
+    std::ofstream(folder_ / "study.toml") << head << rest;
+    expect_refused({verb, "study.toml", "--set", "clearance.F1.radial=0.1mm"},
+                   "--set clearance.F1.radial=0.1mm: clearance.F1.radial: found a value that would have no effect: the "
+                   "study varies it (study.toml:");
+  };
+  varied("sweep", "[[sweep.axis]]\nparameter = \"clearance.F1.radial\"\nvalues = [\"0.1 mm\", \"0.2 mm\"]\n");
+  varied("match", "[[match.variable]]\nparameter = \"clearance.F1.radial\"\nfrom = \"0.1 mm\"\nto = \"0.3 mm\"\n");
+  varied("allocate",
+         "[allocate]\nrequirement = { limit = \"0.3 mm\", probability = 0.95, confidence = 0.9 }\n[[allocate.joint]]\n"
+         "parameter = \"clearance.F1.radial\"\nleast = \"2 um\"\nprocesses = [{ name = \"p\", tolerance = \"0.05 mm\", "
+         "price = 1 }]\n");
+  varied("montecarlo", "[montecarlo]\nsamples = 10\n" + scatter);
+  varied("sensitivity", "[sensitivity]\nsamples = 64\nreplicates = 4\n" + scatter);
+  varied("budget", "[budget]\nmembers = 10\n" + scatter);
+  varied("serve", scatter);
 }
 
 TEST_F(InputProgram, HistoriesThatMemoryCannotHoldAreRefusedWithTheirSize) {

@@ -170,5 +170,13 @@ TEST_F(SeveralRungsProgram, ContradictionsAreRefusedWithTheirLine) {
   }
 }
 
+TEST_F(SeveralRungsProgram, ARungBesideThoseThatTheStudyNamesIsRefused) {
+  study("[montecarlo]\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"2 s\", pilot = 10 }\n");
+  const Ended ended = ask("montecarlo", {"--rung", "multibody"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("--rung: found \"multibody\", expected none: the study names its rungs"));
+}
+
 }  // namespace several_rungs_program_test
 }  // namespace boresight::app

@@ -50,6 +50,18 @@ TEST(Options, UnknownWordsAreRefusedWithThoseThatThereAre) {
       "integrator: found \"generalized-alpha\", expected rk4, dopri5 or rosenbrock (those of the perturbation rung)");
 }
 
+TEST(Options, ARungSaysWhatItDoesNotRead) {
+  for (const char* rung : {"envelope", "quasistatic"})
+    for (const char* option : {"step", "integrator", "tolerance", "formulation", "stabilisation"})
+      EXPECT_EQ(why_unread(option, rung), std::string("the ") + rung + " rung takes no steps");
+  EXPECT_EQ(why_unread("formulation", "perturbation"),
+            "the perturbation rung has equations of its own; the multibody rung has formulations");
+  EXPECT_NE(why_unread("stabilisation", "perturbation"), "");
+  for (const char* option : {"step", "integrator", "tolerance"}) EXPECT_EQ(why_unread(option, "perturbation"), "");
+  for (const char* option : {"step", "integrator", "tolerance", "formulation", "stabilisation"})
+    EXPECT_EQ(why_unread(option, "multibody"), "");
+}
+
 TEST(Options, NumbersOutOfRangeAreRefused) {
   RunOptions options;
   options.step = std::nan("");
