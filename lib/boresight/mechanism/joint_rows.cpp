@@ -26,11 +26,11 @@ TwistAxis axis_of_twist(const Vec3& yA, const Vec3& yB, const Vec3& wA, const Ve
 }
 
 // Turn of a direction v about the normal of e and f, the gradient by its angular velocity relative to theirs, and that gradient's own rate.
-struct Turn {
+struct DirectionTurn {
   double angle;
   Vec3 gradient, gradient_rate;
 };
-Turn turn_of(const Vec3& v, const Vec3& w_of_v, const Vec3& e, const Vec3& f, const Vec3& w_of_ef) {
+DirectionTurn turn_of_direction(const Vec3& v, const Vec3& w_of_v, const Vec3& e, const Vec3& f, const Vec3& w_of_ef) {
   const Vec3 v_dot = w_of_v.cross(v), e_dot = w_of_ef.cross(e), f_dot = w_of_ef.cross(f);
   const double ve = v.dot(e), vf = v.dot(f), square = ve * ve + vf * vf;
   const double ve_dot = v_dot.dot(e) + v.dot(e_dot), vf_dot = v_dot.dot(f) + v.dot(f_dot);
@@ -169,7 +169,7 @@ void JointConstraint::evaluate(const std::vector<BodyMotion>& bodies, const Time
       case Kind::turn: {
         const Vec3 s = B.R * second_axis_;
         if (row.a == 0) {
-          const Turn turn = turn_of(s, B.w, XA.col(0), XA.col(2), A.w);
+          const DirectionTurn turn = turn_of_direction(s, B.w, XA.col(0), XA.col(2), A.w);
           rows.reference.row(i) << Vec3::Zero().transpose(), -turn.gradient.transpose();
           rows.other.row(i) << Vec3::Zero().transpose(), turn.gradient.transpose();
           rows.value[i] = turn.angle;
@@ -178,7 +178,7 @@ void JointConstraint::evaluate(const std::vector<BodyMotion>& bodies, const Time
         } else {
           // The first axis as the second body sees it: that body turns the other way.
           const Vec3 f = (XB.col(1) - s * s.dot(XB.col(1))).normalized();
-          const Turn turn = turn_of(XA.col(1), A.w, s.cross(f), f, B.w);
+          const DirectionTurn turn = turn_of_direction(XA.col(1), A.w, s.cross(f), f, B.w);
           rows.reference.row(i) << Vec3::Zero().transpose(), -turn.gradient.transpose();
           rows.other.row(i) << Vec3::Zero().transpose(), turn.gradient.transpose();
           rows.value[i] = -turn.angle;

@@ -9,6 +9,8 @@
 namespace boresight {
 namespace {
 
+constexpr double kRoundingOfPoses = 1e-12;  // of poses [m or rad]
+
 // Instants that are looked at, both ends among them, each the knot before it: no two of them lie alike in a period of the motion, as the
 // number of gaps between them is prime.
 constexpr int kInstants = 14;
@@ -64,8 +66,8 @@ PerQuantity standing_model_error(const Mechanism& mechanism, const PreparedScene
   const double largest =
       std::max({index.position_error.max, length * index.orientation_error.max, length * index.boresight_error.max});
   const auto count = [&](PointingQuantity quantity, double miss, double least) {
-    if (const double against = std::max(index.of(quantity).max, least); against > 0.0)
-      share[static_cast<std::size_t>(quantity)] = miss / against;
+    // Errors that cancel to first order leave nothing to hold what is missed against but rounding.
+    share[static_cast<std::size_t>(quantity)] = miss / std::max({index.of(quantity).max, least, kRoundingOfPoses});
   };
   count(PointingQuantity::position_error, missed.position, kNextToNoError * largest);
   count(PointingQuantity::orientation_error, missed.orientation, kNextToNoError * largest / length);

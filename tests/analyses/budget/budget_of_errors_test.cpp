@@ -92,5 +92,51 @@ TEST_F(BudgetOfErrors, SharesAreThoseOfTheMeanSquaresAndAddUpWhicheverMembersAre
   EXPECT_NEAR(b.contributions[0].share + b.contributions[1].share, 1.0, 1e-6);
 }
 
+// Four turns of a milliradian about two axes, there and back: to first order they cancel but for 0.1 urad; turns about two axes do not commute,
+// and 1 urad is left. A linear rung says by how much it may be off, and meets no requirement that hangs on it.
+TEST_F(BudgetOfErrors, AreNotMetOnARungThatMayBeOffByMoreThanTheMargin) {
+  std::string text = R"toml(
+format = 1
+gravity = ["0 m/s^2", "0 m/s^2", "0 m/s^2"]
+[motion]
+duration = "0.1 s"
+drives = { J1 = "0", J2 = "0", J3 = "0" }
+)toml";
+  for (const char* name : {"b1", "b2", "b3"})
+    text += "[[body]]\nname = \"" + std::string(name) +
+            "\"\nmass = \"1 kg\"\ncenter_of_mass = [\"0 m\", \"0 m\", \"0 m\"]\n"
+            "inertia = [\"1 kg m^2\", \"1 kg m^2\", \"1 kg m^2\"]\n" +
+            (std::string(name) == "b3" ? "boresight = [0.1, 1, 0.2]\n" : "");
+  const auto joint = [&](const char* name, const char* connects) {
+    text += "[[joint]]\nname = \"" + std::string(name) + "\"\ntype = \"revolute\"\nconnects = " + connects +
+            "\npoint = [\"0 m\", \"0 m\", \"0 m\"]\naxis = [0, 0, 1]\ndriven = true\n";
+  };
+  joint("J1", "[\"ground\", \"b1\"]");
+  joint("J2", "[\"b1\", \"b2\"]");
+  joint("J3", "[\"b2\", \"b3\"]");
+  const auto error = [&](const char* name, const char* joint, const char* body, const char* axis, const char* value) {
+    text += "[[error]]\nname = \"" + std::string(name) + "\"\njoint = \"" + joint + "\"\nbody = \"" + body +
+            "\"\nrotation = " + axis + "\nvalue = \"" + value + "\"\n";
+  };
+  error("a", "J1", "ground", "[1, 0, 0]", "1 mrad");
+  error("b", "J2", "b1", "[0, 1, 0]", "1 mrad");
+  error("c", "J3", "b2", "[1, 0, 0]", "-0.9999 mrad");
+  error("d", "J3", "b3", "[0, 1, 0]", "1 mrad");
+  const auto mechanism = std::make_shared<const Mechanism>(read_mechanism_text(text, "turns.toml"));
+  const std::string study =
+      "[[random]]\nparameter = \"error.d\"\ndistribution = { normal = { mean = \"1 mrad\", sd = \"0.05 urad\" } }\n"
+      "[budget]\nmembers = 40\nattribution = 2\n[[budget.requirement]]\nindex = \"APE\"\nlimit = \"0.6 urad\"\n"
+      "probability = 0.9\ninterpretation = \"ensemble\"\n";
+  const auto answer = [&](const char* rung) {
+    return make_budget(mechanism, study, "boresight_error", rung).budget.requirements.at(0);
+  };
+  const RequirementAnswer exact = answer("multibody"), linear = answer("perturbation");
+  EXPECT_FALSE(exact.met_by_members);
+  EXPECT_GT(exact.level.level.value, 0.9e-6);
+  EXPECT_TRUE(linear.met_by_members) << linear.level.level.value;
+  EXPECT_GT(linear.model_error, 1.0);
+  EXPECT_FALSE(linear.compliance.met);
+}
+
 }  // namespace budget_of_errors_test
 }  // namespace boresight
