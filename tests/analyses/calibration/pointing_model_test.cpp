@@ -249,6 +249,31 @@ TEST(PointingModel, IntervalsWithPriorsHoldWhateverTheNoiseWasToldToBe) {
   }
 }
 
+// Wind, seeing, a structure that warms up: readings that follow one another are worth fewer than they are, and a fit takes the slow part of them
+// for its own. Their own products would state half of it.
+TEST(PointingModel, IntervalsHoldWithNoiseThatFollowsItself) {
+  constexpr int kNights = 80, kStars = 200;
+  const Bench bench(gimbal(), {"error.IA", "error.IE"}, {6, 7, 8}, kStars);
+  for (const double follows : {0.5, 0.9}) {
+    Coverage coverage;
+    double off = 0.0, stated = 0.0;
+    for (int night = 0; night < kNights; ++night) {
+      CalibrationProblem problem =
+          bench.problem(std::vector<double>(3, 1.0 * kArcsec), static_cast<unsigned>(7000 + night), follows);
+      problem.loss.kind = Loss::none;
+      for (const ParameterEstimate& e : calibrate(problem, {}).inference.parameters) {
+        coverage.add(bench.truth(e.name), e.low, e.high);
+        off += std::pow(e.value - bench.truth(e.name), 2);
+        stated += e.standard_error * e.standard_error;
+      }
+    }
+    std::printf("correlation %.1f: %.1f %% inside, errors stated over found %.2f\n", follows, 100.0 * coverage.share(),
+                std::sqrt(stated / off));
+    EXPECT_NEAR(coverage.share(), 0.95, 1.5 * coverage.allowed()) << follows;
+    EXPECT_NEAR(std::sqrt(stated / off), 1.0, 0.25) << follows;
+  }
+}
+
 // A fit through all its readings leaves no residual: the noise is what it was told to be, or unknown.
 TEST(PointingModel, AsManyReadingsAsTermsTellNothingOfTheirNoise) {
   const Bench bench(gimbal(), {"error.IA", "error.IE"}, {6, 8}, 1);

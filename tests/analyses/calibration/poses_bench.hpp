@@ -30,8 +30,9 @@ struct Bench {
     clean = multibody_readings(mechanism, mechanism->parameters(), times, channels);
   }
 
-  // noise: standard deviation of each channel [SI]. Fits start at the drawing.
-  CalibrationProblem problem(const std::vector<double>& noise, unsigned seed) const {
+  // noise: standard deviation of each channel [SI]; follows: the correlation of neighbouring readings of one, as a first-order process has it.
+  // Fits start at the drawing.
+  CalibrationProblem problem(const std::vector<double>& noise, unsigned seed, double follows = 0.0) const {
     MeasuredData data;
     data.file = "synthetic";
     data.channels = channels;
@@ -39,10 +40,14 @@ struct Bench {
     data.value = clean;
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> normal;
+    std::vector<double> last(noise.size());
     for (Eigen::Index i = 0; i < clean.rows(); ++i) {
       data.line.push_back(static_cast<int>(i) + 2);
-      for (Eigen::Index c = 0; c < clean.cols(); ++c)
-        data.value(i, c) += noise[static_cast<std::size_t>(c)] * normal(engine);
+      for (Eigen::Index c = 0; c < clean.cols(); ++c) {
+        double& now = last[static_cast<std::size_t>(c)];
+        now = i == 0 ? normal(engine) : follows * now + std::sqrt(1.0 - follows * follows) * normal(engine);
+        data.value(i, c) += noise[static_cast<std::size_t>(c)] * now;
+      }
     }
     CalibrationProblem p;
     p.runs.emplace_back("poses", mechanism, data);
