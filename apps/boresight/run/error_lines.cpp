@@ -27,7 +27,10 @@ std::vector<std::string> error_lines(const RunResult& result, const MeasuredErro
       line += fmt::format("  ({} max)", readable_arcsec((result.index.*quantity.statistics).max));
     lines.push_back(line.substr(0, line.find_last_not_of(' ') + 1));
   }
-  if (stated) lines.emplace_back("±: what steps do and what the rung leaves out, together, of each figure by itself");
+  if (stated)
+    lines.push_back(fmt::format("±: what {} do{}, of each figure by itself",
+                                measured.by_instants ? "instants" : "steps",
+                                result.error.basis.empty() ? "" : " and what the rung leaves out, together"));
   return lines;
 }
 

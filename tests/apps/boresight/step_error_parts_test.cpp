@@ -103,7 +103,8 @@ TEST(ErrorLines, StandWithTheirOwnUncertainties) {
   measured.stated.position_error.rms = 0.5e-5;
   const std::vector<std::string> with = error_lines(result, measured, 1.0), without = error_lines(result, {}, 1.0);
   EXPECT_THAT(with.front(), AllOf(HasSubstr("± 2 %"), HasSubstr("± 10 %")));
-  EXPECT_EQ(with.size(), 3U);
+  ASSERT_EQ(with.size(), 3U);
+  EXPECT_THAT(with.back(), AllOf(HasSubstr("what steps do"), Not(HasSubstr("leaves out"))));
   EXPECT_EQ(without.size(), 2U);
   EXPECT_THAT(without.front(), Not(HasSubstr("±")));
 }
