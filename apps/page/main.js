@@ -47,7 +47,7 @@ function sideBySide(items) {
 
 const links = report.sections.map(({ id, title }) => element("li", {}, element("a", { href: `#${id}` }, title)));
 const contents = report.sections.length > 1 ? element("nav", { class: "contents", "aria-label": "Contents" },
-  element("details", { open: matchMedia("(min-width: 1120px)").matches }, element("summary", {}, "Contents"), element("ol", {}, links))) : null;
+  element("details", { open: matchMedia("(min-width: 1280px)").matches }, element("summary", {}, "Contents"), element("ol", {}, links))) : null;
 
 const themeTool = tool("", "", icons.theme, () => { toggleTheme(); nameTheme(); });
 function nameTheme() {

@@ -1,8 +1,8 @@
 #include "boresight_analyses/allocation/allocation_plan.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "boresight/io/tried_value.hpp"
 #include "boresight/io/varied_paths.hpp"
 #include "boresight/keys/parameter_unit.hpp"
 #include "boresight/keys/units.hpp"
@@ -95,13 +95,12 @@ void check_gaps(Cursor& entry, const AllocationEntry& joint, const std::function
     }
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
   for (const double value : {joint.is_error ? *least : std::max(*least, 1e-9), *largest}) {
-    char text[60];
-    std::snprintf(text, sizeof text, "%.17g %s", value, joint.unit().c_str());
+    const TriedValue tried(value, joint.unit());
     for (const std::string& path : joint.paths) {
       try {
-        accepts({path, text});
+        accepts({path, tried.exact()});
       } catch (const InputError& error) {
-        throw InputError(entry.origin("parameter"), path, error.found, error.expected, error.nearest);
+        throw InputError(entry.origin("parameter"), path, tried.in_message(error.found), error.expected, error.nearest);
       }
     }
   }

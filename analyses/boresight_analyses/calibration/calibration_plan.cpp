@@ -5,6 +5,7 @@
 
 #include "boresight/contact/normal_law.hpp"
 #include "boresight/io/referred_file.hpp"
+#include "boresight/io/tried_value.hpp"
 #include "boresight/io/varied_paths.hpp"
 #include "boresight/keys/parameter_unit.hpp"
 #include "boresight/keys/units.hpp"
@@ -86,6 +87,7 @@ PlannedRun read_run(Cursor& run, const std::string& study_file) {
   std::string data;
   if (planned.sensors.empty()) {
     data = run.text("data");
+    run.require(!data.empty(), "data", "the path of a file");
     planned.data = beside(study_file, data);
     planned.origin = run.origin("data");
   } else if (run.has("data")) {
@@ -112,12 +114,11 @@ void check_values(const PlannedParameter& p, const Mechanism& mechanism,
   const std::string unit = ParameterPath(mechanism.description(), p.path, p.origin).unit();
   for (const std::optional<double>& value : {p.start, p.lower, p.upper}) {
     if (!value) continue;
-    char text[60];
-    std::snprintf(text, sizeof text, unit == "1" ? "%.17g" : "%.17g ", *value);
+    const TriedValue tried(*value, unit);
     try {
-      mechanism_with({{p.path, unit == "1" ? std::string(text) : text + unit}});
+      mechanism_with({{p.path, tried.exact()}});
     } catch (const InputError& error) {
-      throw InputError(p.origin, p.path, error.found, error.expected, error.nearest);
+      throw InputError(p.origin, p.path, tried.in_message(error.found), error.expected, error.nearest);
     }
   }
 }

@@ -114,7 +114,9 @@ const KeyTable& sensor_factors_keys() {
 PlannedSensor read_sensor(Cursor table, const std::string& study_file) {
   table.only(calibrate_sensor_keys());
   PlannedSensor sensor;
-  sensor.data = beside(study_file, table.text("data"));
+  const std::string data = table.text("data");
+  table.require(!data.empty(), "data", "the path of a file");
+  sensor.data = beside(study_file, data);
   sensor.origin = table.origin("data");
   ReadAs& as = sensor.as;
   if (table.has("header")) as.header = static_cast<int>(table.integer("header"));

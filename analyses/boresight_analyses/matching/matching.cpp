@@ -146,7 +146,15 @@ class Matching {
     }
   }
 
+  std::string shown(double value, double beside) const {
+    if (options_.shown) return options_.shown(value, beside);
+    char text[40];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text;
+  }
+
   void search() {
+    if (plan_.local == "none") result_.local = "none";
     const std::vector<std::vector<double>> starts = plan_.starts();
     if (plan_.global != "none") {
       stage_ = "search of the box";
@@ -168,6 +176,7 @@ class Matching {
       descend(starts[k], "start " + std::to_string(k + 1), plan_.evaluations);
     // Any place seen on the way counts, the corners of the search included.
     best_of_visits();
+    if (result_.local == "none") return;
     result_.why += "; then " + result_.local;
     if (result_.local == "slsqp" || result_.local == "mma") {
       result_.why += ", which goes by gradients: every motion on the way had exact slopes to its end";
@@ -336,11 +345,9 @@ class Matching {
     c.agrees = std::isfinite(off) && keeps == result_.feasible &&
                plan_.objective.may_be_alike(evaluator_->at(result_.design), outcomes, options_.confidence,
                                             options_.accuracy * std::abs(c.value));
-    char text[300];
-    std::snprintf(text, sizeof text, "%s with seed %llu gives %.4g where the search had %.4g: %s", rung.c_str(),
-                  static_cast<unsigned long long>(c.seed), c.value, result_.objective,
-                  c.agrees ? "within what samples and accuracy leave open" : "they disagree");
-    c.sentence = text;
+    c.sentence = rung + " with seed " + std::to_string(c.seed) + " gives " + shown(c.value, result_.objective) +
+                 " where the search had " + shown(result_.objective, result_.objective) + ": " +
+                 (c.agrees ? "within what samples and accuracy leave open" : "they disagree");
     if (!c.agrees && std::isfinite(off)) {
       // On from there, on the better rung.
       DesignEvaluator* before = evaluator_;

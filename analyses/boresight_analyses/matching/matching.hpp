@@ -83,6 +83,8 @@ struct MatchingOptions {
   // Of the objective by each variable [SI] at a design; none where there is none there, and why. Empty: `no_slopes` says why.
   std::function<std::optional<std::vector<double>>(const std::vector<double>& design, std::string& why)> slopes = {};
   std::string no_slopes = "impacts leave no derivatives to go by";
+  // How sentences show a value of the objective, in the unit in which `beside` is shown; empty: as a number in SI.
+  std::function<std::string(double value, double beside)> shown = {};
   std::function<bool()> interrupted = {};
   std::function<void(const MatchingResult&)> progress = {};  // after each evaluation
 };

@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "boresight/io/tried_value.hpp"
 #include "boresight/io/varied_paths.hpp"
 #include "boresight/keys/parameter_unit.hpp"
 #include "boresight/keys/units.hpp"
@@ -23,13 +24,13 @@ namespace {
 void check_ends(Cursor& entry, const RandomParameter& random, const std::function<void(const Setting&)>& accepts) {
   constexpr double kRare = 1e-9;
   for (const double value : {random.distribution->quantile(kRare), random.distribution->upper_quantile(kRare)}) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g", value);
+    const TriedValue tried(value, random.si_unit);
     for (const std::string& path : random.paths) {
       try {
-        accepts({path, random.si_unit == "1" ? std::string(text) : text + (" " + random.si_unit)});
+        accepts({path, tried.exact()});
       } catch (const InputError& error) {
-        throw InputError(entry.origin("distribution"), path, "a distribution that reaches " + error.found,
+        throw InputError(entry.origin("distribution"), path,
+                         "a distribution that reaches " + tried.in_message(error.found),
                          error.expected + "; truncate = [low, high] cuts it", error.nearest);
       }
     }

@@ -87,7 +87,7 @@ void add_moments(const std::vector<const SobolRow*>& rows, double centre, SobolI
 
 template <typename Sampling>
 bool SobolIndices<Sampling>::Group::undersampled() const {
-  const auto unsettled = [](const IntervalOf<Sampling>& i) { return i.value < 0.0 || i.high - i.low > 0.2; };
+  const auto unsettled = [](const IntervalOf<Sampling>& i) { return i.high < 0.0 || i.high - i.low > 0.2; };
   return unsettled(first) || unsettled(total);
 }
 template struct SobolIndices<Independent>;

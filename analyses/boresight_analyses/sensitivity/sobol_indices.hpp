@@ -21,7 +21,7 @@ template <typename Sampling>
 struct SobolIndices {
   struct Group {
     IntervalOf<Sampling> first, total;
-    // A negative index, or an interval wider than 0.2: the sample does not settle it.
+    // An interval wholly below zero, where no share lies, or wider than 0.2: the sample does not settle it.
     bool undersampled() const;
   };
   std::vector<Group> groups;

@@ -203,6 +203,12 @@ std::string allocate_sentence(const AllocateStudy& s) {
       s.result.confirmations[s.result.confirmed_by].sentence);
 }
 
+std::string last_micro_sentence(const AllocateStudy& s) {
+  const double costs = s.result.last_micrometre;
+  return fmt::format("keeping the limit by 1 {} tighter costs {}", s.study.index.si_unit() == "m" ? "µm" : "µrad",
+                     costs > 0.0 ? fmt::format("{:.4g} more", costs) : "nothing more");
+}
+
 report::Document allocate_report(const AllocateStudy& s) {
   report::Document document{
       .title = s.mechanism.name(), .subtitle = "Allocation: " + requirement_text(s), .verb = "allocate"};

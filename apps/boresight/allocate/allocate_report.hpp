@@ -30,6 +30,8 @@ std::string option_text(const AllocateStudy& study, const Allocation& allocation
 std::string standing_of(const AllocateStudy& study, const Allocation& allocation);
 // The answer in a sentence.
 std::string allocate_sentence(const AllocateStudy& study);
+// "keeping the limit by 1 µm tighter costs 3.2 more".
+std::string last_micro_sentence(const AllocateStudy& study);
 std::string requirement_text(const AllocateStudy& study);
 
 report::Document allocate_report(const AllocateStudy& study);

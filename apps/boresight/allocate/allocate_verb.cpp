@@ -13,6 +13,7 @@
 #include "boresight_analyses/study/design_model.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
+#include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/start_warnings.hpp"
@@ -263,7 +264,8 @@ class AllocateVerb : public Verb {
   static std::vector<std::string> warnings_of(const AllocateStudy& s) {
     std::vector<std::string> warnings;
     const AllocationResult& r = s.result;
-    if (s.command.rung == "envelope" || s.command.rung == "quasistatic")
+    // Of the quasistatic rung that would not be so: the search is on it.
+    if (s.command.rung == "envelope")
       warnings.push_back("--rung " + s.command.rung + " is not used: the search is on the quasistatic rung, and " +
                          s.rung.name + " confirms what it finds");
     if (r.feasible && !r.chosen.finished)
@@ -375,10 +377,8 @@ class AllocateVerb : public Verb {
     for (const Allocation* a : {&s.result.worst_case, &s.result.root_sum_square})
       if (!a->judged_by.empty())
         tell("  {}: {}{}\n", a->judged_by, a->feasible ? fmt::format("{:.5g}, ", a->price) : "", standing_of(s, *a));
-    if (s.result.feasible && std::isfinite(s.result.last_micrometre))
-      tell("  the last micro{}: {:.4g}\n", s.study.index.si_unit() == "m" ? "metre" : "radian",
-           s.result.last_micrometre);
-    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    if (s.result.feasible && std::isfinite(s.result.last_micrometre)) tell("  {}\n", last_micro_sentence(s));
+    tell_warnings(s.warnings, s.command, s.mechanism);
     tell("  report: {}\n", (out.path() / "report.html").string());
   }
 

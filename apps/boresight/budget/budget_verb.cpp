@@ -15,6 +15,7 @@
 #include "budget/budget_report.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
+#include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/start_warnings.hpp"
@@ -381,7 +382,7 @@ class BudgetVerb : public Verb {
                  ? fmt::format(" ({} to {})", budget_value(s, r.interval.low), budget_value(s, r.interval.high))
                  : "");
     }
-    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell_warnings(s.warnings, s.command, s.mechanism);
     tell("  report: {}\n", (out.path() / "report.html").string());
   }
 

@@ -22,6 +22,7 @@
 #include "calibrate/calibrate_report.hpp"
 #include "command_line/declared_option.hpp"
 #include "command_line/verb.hpp"
+#include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/summary.hpp"
 #include "results/verb_study.hpp"
@@ -344,7 +345,7 @@ class CalibrateVerb : public Verb {
       }
     for (const std::string& sentence : s.result.verdict) tell("  {}\n", sentence);
     if (!s.result.next_tests.empty()) tell("  next test: {}\n", s.result.next_tests.front().name);
-    for (const std::string& warning : s.result.warnings) tell("  warning: {}\n", warning);
+    tell_warnings(s.result.warnings, s.command, s.mechanism);
     if (s.result.interrupted)
       tell("  interrupted: the posterior is that of a fit that had not ended; the same command goes on\n");
     if (s.result.inference.parameters.empty()) return;

@@ -14,6 +14,7 @@
 #include "command_line/declared_option.hpp"
 #include "command_line/option_range.hpp"
 #include "command_line/verb.hpp"
+#include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
@@ -70,13 +71,17 @@ Json point_json(const ChartPoint& p) {
 
 const RungChoice kAllRungs{.name = "all", .why = "the chart compares them"};
 
-Json summary_of(const VerbStudy& own, const ChartResult& result, std::optional<double> accuracy, const Stopwatch& watch,
-                const SampleStore::Cost& earlier) {
+std::vector<std::string> warnings_of(const ChartResult& result) {
   std::vector<std::string> warnings;
   for (const std::string& name : result.left_out) warnings.push_back("no time was left for " + name);
   for (const std::string& name : result.flight.left_out)
     warnings.push_back("no time was left for the flight before the first impact of " + name);
-  Json json = own.head(kAllRungs, watch, warnings, result.interrupted, earlier);
+  return warnings;
+}
+
+Json summary_of(const VerbStudy& own, const ChartResult& result, std::optional<double> accuracy, const Stopwatch& watch,
+                const SampleStore::Cost& earlier) {
+  Json json = own.head(kAllRungs, watch, warnings_of(result), result.interrupted, earlier);
   json["index"] = result.index;
   json["reference"] = {
       {"value", result.reference.value}, {"uncertainty", result.reference.uncertainty}, {"refinements", Json::array()}};
@@ -104,8 +109,8 @@ Json summary_of(const VerbStudy& own, const ChartResult& result, std::optional<d
   return json;
 }
 
-void print(const Mechanism& mechanism, const ChartResult& result, std::optional<double> accuracy,
-           const OutputDirectory& out) {
+void print(const Command& command, const Mechanism& mechanism, const ChartResult& result,
+           std::optional<double> accuracy, const OutputDirectory& out) {
   tell("{}: accuracy against speed, {}{}\n", mechanism.name(), result.index,
        result.interrupted ? " (interrupted; the same command goes on)" : "");
   tell("  reference {}, known to {}\n", readable(result.reference.value, result.unit),
@@ -130,7 +135,7 @@ void print(const Mechanism& mechanism, const ChartResult& result, std::optional<
   std::size_t failed = 0;
   for (const ChartPoint& p : result.points) failed += !p.measured.refusal.empty();
   tell("  {} ways, {} failed; {}\n", result.points.size(), failed, machine_line(result.machine));
-  for (const std::string& name : result.left_out) tell("  warning: no time was left for {}\n", name);
+  tell_warnings(warnings_of(result), command, mechanism);
   tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
@@ -213,7 +218,7 @@ class ChartVerb : public Verb {
     begun.results.reset();
     if (!result.interrupted) own.run().forget(kUnfinished);
     stage->clear();
-    if (!command.quiet) print(*mechanism, result, accuracy, out);
+    if (!command.quiet) print(command, *mechanism, result, accuracy, out);
     if (result.interrupted) return kInterrupted;
     return accuracy && !result.cheapest_within(*accuracy) ? kAnswerIsNo : kDone;
   }

@@ -78,7 +78,8 @@ report::Table contact_frequencies(const std::vector<ContactFrequency>& contacts)
           "Reaction: RMS along the "
           "ideal motion, and the depth at which the journal rests under it. An explicit integrator must "
           "resolve the contact's frequency ω: RK4 blows up "
-          "above a step of 2.785 / ω. Valid to: the impact speed up to which contact laws hold (Eq. 26).",
+          "above a step of 2.785 / ω. Valid to: the impact speed up to which contact laws hold (Love 1944; Sun et al., "
+          "Eq. 26).",
       .columns = {{"Joint"},
                   {"K, Hertz", "N/m^1.5"},
                   {"K, axial", "N/m"},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "boresight/pointing/relative_text.hpp"
@@ -209,6 +210,19 @@ std::string design_text(const MatchingPlan& plan, const std::vector<double>& des
   return text;
 }
 
+std::string objective_text(const MatchingPlan& plan, const IndexChoice& index, double value, double beside) {
+  if (!std::isfinite(value)) return "nothing";
+  if (plan.objective.measure == Measure::free_flight_share) return fmt::format("{:.4g} %", 100.0 * value);
+  const DisplayUnit unit = display_unit(plan.objective.si_unit(index), beside);
+  return fmt::format("{:.4g}{}{}", value * unit.per_si, unit.name.empty() ? "" : " ", unit.name);
+}
+
+std::string search_text(const MatchingResult& result) {
+  if (result.global.empty()) return "interrupted in the search of the box, before any descent";
+  if (result.local.empty()) return "search of the box: " + result.global + ", interrupted in the first descent";
+  return "search of the box: " + result.global + ", descent: " + result.local;
+}
+
 std::string match_sentence(const MatchStudy& s) {
   const MatchingResult& r = s.result;
   if (r.design.empty()) return "Nothing was found: no design could be computed.";
@@ -258,11 +272,10 @@ report::Document match_report(const MatchStudy& s) {
   if (s.result.front.size() > 1)
     document.sections.push_back(
         {.id = "front", .title = "What stability costs in accuracy", .items = {front_chart(s), front_table(s)}});
+  std::string how = search_text(s.result) + "." + (s.result.why.empty() ? "" : " " + s.result.why + ".");
+  how.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(how.front())));
   document.sections.push_back(
-      {.id = "search",
-       .title = "How it was found",
-       .intro = "Search of the box: " + s.result.global + ", descent: " + s.result.local + ". " + s.result.why + ".",
-       .items = {descent_table(s), settling_chart(s)}});
+      {.id = "search", .title = "How it was found", .intro = how, .items = {descent_table(s), settling_chart(s)}});
   document.sections.push_back(
       {.id = "model", .title = "What this model leaves out", .items = {report::Text{s.leaves_out}}});
   if (s.rung.pilot) document.sections.push_back(pilot_section(*s.rung.pilot));

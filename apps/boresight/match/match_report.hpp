@@ -26,6 +26,10 @@ struct MatchStudy {
 
 // "payload.mass = 5.1 kg, clearance.F1.radial = 0.1 mm".
 std::string design_text(const MatchingPlan& plan, const std::vector<double>& design);
+// A value of the objective with four digits, in the unit in which `beside` is shown.
+std::string objective_text(const MatchingPlan& plan, const IndexChoice& index, double value, double beside);
+// "search: direct, descent: bobyqa", or how far it came where it was interrupted.
+std::string search_text(const MatchingResult& result);
 // The answer in a sentence.
 std::string match_sentence(const MatchStudy& study);
 

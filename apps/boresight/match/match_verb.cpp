@@ -15,6 +15,7 @@
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
 #include "match/match_report.hpp"
+#include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/start_warnings.hpp"
@@ -175,6 +176,7 @@ class MatchVerb : public Verb {
     const std::unique_ptr<Stage> stage = own.run().stage(designs, "designs");
     MatchingOptions how;
     how.accuracy = accuracy;
+    how.shown = [&](double value, double beside) { return objective_text(plan, study.index, value, beside); };
     how.interrupted = [] { return interrupted(); };
     how.progress = [&](const MatchingResult& r) {
       std::string estimate = r.visits.back().stage;
@@ -300,12 +302,12 @@ class MatchVerb : public Verb {
 
   static void print(const MatchStudy& s, const OutputDirectory& out) {
     tell("{}\n", match_sentence(s));
-    tell("  search: {}, descent: {}; {} designs computed, {} reused; {}\n", s.result.global, s.result.local,
-         s.result.evaluations, s.result.reused, s.result.why);
+    tell("  {}; {} designs computed, {} reused{}{}\n", search_text(s.result), s.result.evaluations, s.result.reused,
+         s.result.why.empty() ? "" : "; ", s.result.why);
     for (const MatchingDescent& d : s.result.descents)
       tell("  from {}: {} -> {}, {:.5g}{}\n", d.from, design_text(s.plan, d.start), design_text(s.plan, d.end),
            d.objective, d.agrees ? ", the same answer" : "");
-    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell_warnings(s.warnings, s.command, s.mechanism);
     tell("  report: {}\n", (out.path() / "report.html").string());
   }
 

@@ -8,6 +8,7 @@
 
 #include "boresight_analyses/fidelities/fidelity_study.hpp"
 #include "montecarlo/several_rungs.hpp"
+#include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/tables.hpp"
 #include "terminal/exit_status.hpp"
@@ -201,7 +202,7 @@ int run_fidelities(const SeveralRungs& s) {
            asked.models[static_cast<std::size_t>(o.plan.models[k])], o.plan.samples[k],
            o.plan.correlation[static_cast<std::size_t>(o.plan.models[k])],
            readable(o.measured_cost[static_cast<std::size_t>(o.plan.models[k])], "s"));
-    for (const std::string& warning : warnings) tell("  warning: {}\n", warning);
+    tell_warnings(warnings, s.command, *s.question.mechanism);
     tell("  report: {}\n", (s.own.out().path() / "report.html").string());
   }
   return met ? kDone : kAnswerIsNo;

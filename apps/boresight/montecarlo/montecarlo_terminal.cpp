@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "boresight_analyses/statistics/binomial.hpp"
+#include "results/assumed.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -67,7 +68,7 @@ void print(const MonteCarloStudy& s, const OutputDirectory& out) {
            std::isfinite(e.discretisation.relative) ? readable_error(e.discretisation.relative) : "not measured",
            readable_error(e.rung.relative), e.dominant);
   if (s.estimates.requirement) tell("  {}\n", verdict_sentence(s));
-  for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+  tell_warnings(s.warnings, s.command, s.mechanism);
   tell("  report: {}\n", (out.path() / "report.html").string());
 }
 

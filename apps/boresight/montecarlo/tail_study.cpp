@@ -8,6 +8,7 @@
 #include <ostream>
 
 #include "montecarlo/several_rungs.hpp"
+#include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/tables.hpp"
 #include "terminal/exit_status.hpp"
@@ -197,7 +198,7 @@ int run_tail(const SeveralRungs& s) {
   for (const std::string& store : stores_of_tail(asked)) s.own.run().forget(store);
   if (!s.command.quiet) {
     tell("  {}\n", sentence);
-    for (const std::string& warning : warnings) tell("  warning: {}\n", warning);
+    tell_warnings(warnings, s.command, *s.question.mechanism);
     tell("  report: {}\n", (s.own.out().path() / "report.html").string());
   }
   return met ? kDone : kAnswerIsNo;

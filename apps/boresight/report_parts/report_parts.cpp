@@ -231,7 +231,7 @@ report::Table contact_table(const std::vector<Overlay>& overlays) {
   report::Table table{.title = "Contacts",
                       .caption =
                           "An impact is a contact begun. Contact laws hold up to the speed in the last column but one "
-                          "(Eq. 26); faster impacts are counted.",
+                          "(Love 1944; Sun et al., Eq. 26); faster impacts are counted.",
                       .columns = {{"Motion"},
                                   {"Joint"},
                                   {"In contact", "%"},
@@ -276,18 +276,24 @@ bool is_ball(const Mechanism& mechanism, int clearance) {
   return type_of(mechanism, clearance) == JointType::spherical;
 }
 bool is_pad(const Mechanism& mechanism, int clearance) { return type_of(mechanism, clearance) == JointType::planar; }
+bool may_tilt(const Mechanism& mechanism, int clearance) {
+  return mechanism.description().clearances[static_cast<std::size_t>(clearance)].axes == JournalAxes::free;
+}
 bool is_slider(const Mechanism& mechanism, int clearance) {
   return mechanism.description().clearances[static_cast<std::size_t>(clearance)].guide == GuideShape::rectangular;
 }
 
-report::Chart orbit_chart(const std::string& joint, bool ball, double radial_clearance, const RunResult& result,
-                          std::size_t clearance) {
+report::Chart orbit_chart(const std::string& joint, bool ball, bool tilts, double radial_clearance,
+                          const RunResult& result, std::size_t clearance) {
   const DisplayUnit unit = display_unit("m", radial_clearance);
   report::Chart chart{
       .title = joint + (ball ? ": ball in socket" : ": journal in sleeve"),
       .caption = ball ? "Path of the ball's centre, seen along y of the socket. Contact begins at a sphere, of which "
                         "the circle is the outline."
-                      : "Path of the journal's centre seen along the joint's axis. Contact begins at the circle.",
+                      : std::string("Path of the journal's centre seen along the joint's axis. ") +
+                            (tilts ? "At the circle contact begins where the axes are parallel. A tilted journal "
+                                     "touches at an end of the sleeve while its centre is still within."
+                                   : "Contact begins at the circle."),
       .x = {ball ? "x of the socket" : "x of the sleeve", unit.name},
       .y = {ball ? "z of the socket" : "z of the sleeve", unit.name},
       .equal_axes = true};

@@ -51,9 +51,13 @@ bool is_pad(const Mechanism& mechanism, int clearance);
 // Whether it is a slider in a rectangular guide.
 bool is_slider(const Mechanism& mechanism, int clearance);
 
-// The journal's centre in the sleeve or the ball's in its socket, seen along the axis, with the circle at which contact begins.
-report::Chart orbit_chart(const std::string& joint, bool ball, double radial_clearance, const RunResult& result,
-                          std::size_t clearance);
+// Whether what plays in it may tilt: it then touches with its edge before its centre is as far off as the gap is wide.
+bool may_tilt(const Mechanism& mechanism, int clearance);
+
+// The journal's centre in the sleeve or the ball's in its socket, seen along the axis, with the circle at which contact begins where
+// axes are parallel.
+report::Chart orbit_chart(const std::string& joint, bool ball, bool tilts, double radial_clearance,
+                          const RunResult& result, std::size_t clearance);
 // The same of a slider, with the rectangle that its guide leaves it.
 report::Chart guide_chart(const std::string& joint, const ClearanceParameters& play, const RunResult& result,
                           std::size_t clearance);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "boresight/pointing/relative_text.hpp"
@@ -78,6 +79,16 @@ std::string step_error_sentence(const MeasuredError& measured, const PointingInd
                          ? ", as far as neighbouring steps lie from each other: one motion of many"
                          : "",
                      measured.basis, readable(measured.cpu_seconds, "s"));
+}
+
+std::string stated_error_text(const MeasuredError& measured, const RunResult& result, const IndexChoice& of,
+                              double size) {
+  if (!measured.measured || is_nothing(of.of(result.index), of, size)) return "";
+  const double relative = relative_step_error(measured, result.index, of) +
+                          (result.error.basis.empty() ? 0.0 : result.error.model_of(of.kind()));
+  if (relative < kOfRounding) return "";
+  constexpr double kLeastShown = 1e-4;  // three digits are printed, and a bound may be wider
+  return "± " + relative_text(std::max(relative, kLeastShown), 2, "it");
 }
 
 ModelErrorSaid model_error_said(const RunResult& result, const IndexChoice& of, double size) {

@@ -17,6 +17,11 @@ double relative_step_error(const MeasuredError& measured, const PointingIndices&
 std::string step_error_sentence(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of,
                                 double size);
 
+// "± 2.3 %": of one index, what the steps do and what the rung leaves out by its own estimate, together. Empty where steps were not
+// measured, and of rounding.
+std::string stated_error_text(const MeasuredError& measured, const RunResult& result, const IndexChoice& of,
+                              double size);
+
 // A warning where the steps leave out as much as there is, or more, and it is not that one motion is unlike the next; else empty.
 std::string steps_mislead(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of,
                           double size);

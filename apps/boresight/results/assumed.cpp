@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "terminal/terminal.hpp"
+
 namespace boresight::app {
 
 std::vector<AssumedValue> assumed_by(const Command& command, const Mechanism& mechanism) {
@@ -26,6 +28,11 @@ std::vector<std::string> material_warnings(const std::vector<AssumedValue>& assu
   for (const AssumedValue& a : assumed)
     if (bare.contains(a.joint) && a.key.starts_with("contact.")) of_bare.push_back(a);
   return in_words(of_bare);
+}
+
+void tell_warnings(const std::vector<std::string>& warnings, const Command& command, const Mechanism& mechanism) {
+  for (const std::string& warning : warnings) tell("  warning: {}\n", warning);
+  for (const std::string& warning : material_warnings(assumed_by(command, mechanism))) tell("  warning: {}\n", warning);
 }
 
 }  // namespace boresight::app

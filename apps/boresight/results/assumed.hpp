@@ -20,4 +20,7 @@ nlohmann::ordered_json assumed_json(const std::vector<AssumedValue>& assumed);
 // Sentences about joints whose material or restitution nobody gave: results then are those of another joint.
 std::vector<std::string> material_warnings(const std::vector<AssumedValue>& assumed);
 
+// A verb's warnings on the terminal, and after them those sentences: every verb that computes with a mechanism's contacts says them once.
+void tell_warnings(const std::vector<std::string>& warnings, const Command& command, const Mechanism& mechanism);
+
 }  // namespace boresight::app

@@ -8,6 +8,7 @@
 
 #include "report_parts/mechanism_view.hpp"
 #include "report_parts/report_parts.hpp"
+#include "report_parts/step_error_parts.hpp"
 #include "results/pilot_parts.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
@@ -15,21 +16,28 @@
 namespace boresight::app {
 namespace {
 
-std::vector<report::Fact> headline(const RunResult& result) {
+std::vector<report::Fact> headline(const RunResult& result, const MeasuredError& measured, double size) {
   const PointingIndices& index = result.index;
+  // What is known of each one's own error, and then what else there is to it.
+  const auto note = [&](const char* quantity, const char* statistic, const std::string& more) {
+    const std::string uncertainty = stated_error_text(measured, result, {quantity, statistic}, size);
+    return uncertainty + (uncertainty.empty() || more.empty() ? "" : ", ") + more;
+  };
   std::vector<report::Fact> facts = {
       {.label = "Position error, maximum",
        .value = readable(index.position_error.max, "m"),
-       .note = fmt::format("at {:.3f} s", index.position_error.time_of_max)},
-      {.label = "Position error, RMS", .value = readable(index.position_error.rms, "m")},
+       .note = note("position_error", "max", fmt::format("at {:.3f} s", index.position_error.time_of_max))},
+      {.label = "Position error, RMS",
+       .value = readable(index.position_error.rms, "m"),
+       .note = note("position_error", "rms", "")},
       {.label = "Boresight error, maximum",
        .value = readable(index.boresight_error.max, "rad"),
-       .note = readable_arcsec(index.boresight_error.max)},
+       .note = note("boresight_error", "max", readable_arcsec(index.boresight_error.max))},
   };
   if (index.has_line_of_sight)
     facts.push_back({.label = "Line-of-sight error, maximum",
                      .value = readable(index.line_of_sight_error.max, "rad"),
-                     .note = readable_arcsec(index.line_of_sight_error.max)});
+                     .note = note("line_of_sight_error", "max", readable_arcsec(index.line_of_sight_error.max))});
   for (const ContactSummary& c : result.contact)
     facts.push_back({.label = c.joint + ", in contact",
                      .value = readable_share(c.contact_fraction),
@@ -58,7 +66,7 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
   const std::string joint = joint_of_clearance(mechanism, static_cast<int>(c));
   const ClearanceParameters& p = mechanism.parameters().clearance[c];
   const bool ball = is_ball(mechanism, static_cast<int>(c)), pad = is_pad(mechanism, static_cast<int>(c)),
-             slider = is_slider(mechanism, static_cast<int>(c));
+             slider = is_slider(mechanism, static_cast<int>(c)), tilts = may_tilt(mechanism, static_cast<int>(c));
   const MechanismDescription& m = mechanism.description();
   // Along its axis it goes where the mechanism has it, past no end faces.
   const bool slides = slides_along_axis(m.joints[static_cast<std::size_t>(m.clearances[c].joint)].type);
@@ -78,7 +86,7 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
   if (slider)
     section.items.push_back(guide_chart(joint, p, result, c));
   else if (!pad)
-    section.items.push_back(orbit_chart(joint, ball, p.radial, result, c));
+    section.items.push_back(orbit_chart(joint, ball, tilts, p.radial, result, c));
 
   report::Panels panels{.title = joint + " over time",
                         .caption = "Penetration and force are drawn with their peaks kept.",
@@ -95,6 +103,10 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
                                              : axial.y.unit == "µm" ? 1e6
                                              : axial.y.unit == "nm" ? 1e9
                                                                     : 1.0};
+  if (tilts && !ball && !slides)
+    axial.caption = pad ? "A tilted pad touches a face with its rim while its centre is still within the lines."
+                        : "A tilted journal touches an end face with its edge while its centre is still within the "
+                          "lines.";
   if (!ball && !slides)
     axial.lines = {{'y', p.axial * axial_unit.per_si, pad ? "face" : "end face"},
                    {'y', -p.axial * axial_unit.per_si, pad ? "face" : "end face"}};
@@ -279,7 +291,8 @@ nlohmann::ordered_json predictability_json(const Predictability& found) {
 report::Document run_report(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
                             const std::string& leaves_out, const RunResult& result, const std::vector<Compared>& others,
                             const std::optional<AxesComparison>& axes,
-                            const std::optional<Predictability>& predictability, const std::string& steps) {
+                            const std::optional<Predictability>& predictability, const MeasuredError& measured,
+                            const std::string& steps) {
   report::Document document{
       .title = mechanism.name(),
       .subtitle = fmt::format("One motion of {} on the {} rung{}", readable(result.end_time, "s"), result.rung,
@@ -289,7 +302,7 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
     document.verdict = report::Verdict{
         report::Standing::bad, fmt::format("Interrupted at {} of {}: what follows is the part that was reached.",
                                            readable(result.end_time, "s"), readable(mechanism.duration(), "s"))};
-  document.facts = headline(result);
+  document.facts = headline(result, measured, mechanism.characteristic_length());
   document.warnings = result.warnings;
   document.provenance = provenance_of(command, mechanism, rung);
 

@@ -24,6 +24,7 @@
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
+#include "run/error_lines.hpp"
 #include "run/nonlinear_section.hpp"
 #include "run/parts_section.hpp"
 #include "run/run_report.hpp"
@@ -42,29 +43,21 @@ constexpr double kOfAnother =
 // What --compare hands on to rungs other than the one asked for: run_other().
 const std::vector<std::string> kReadByOthers = {"step", "formulation", "stabilisation"};
 
-void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
+void print(const Command& command, const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
            const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
            const std::optional<Predictability>& predictability, const MeasuredError& measured,
-           const std::optional<RunParts>& parts, const IndexChoice& wanted, const std::vector<AssumedValue>& assumed,
-           const OutputDirectory& out) {
+           const std::optional<RunParts>& parts, const IndexChoice& wanted, const OutputDirectory& out) {
   tell("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
        result.integrator, result.interrupted ? " (interrupted)" : "");
   if (choice.pilot) tell("  rung: {}\n", choice.why);
-  const PointingIndices& index = result.index;
-  tell("  position error       max {:>10}   RMS {:>10}\n", readable(index.position_error.max, "m"),
-       readable(index.position_error.rms, "m"));
-  tell("  boresight error      max {:>10}   RMS {:>10}   ({} max)\n", readable(index.boresight_error.max, "rad"),
-       readable(index.boresight_error.rms, "rad"), readable_arcsec(index.boresight_error.max));
-  if (index.has_line_of_sight)
-    tell("  line-of-sight error  max {:>10}   RMS {:>10}   ({} max)\n", readable(index.line_of_sight_error.max, "rad"),
-         readable(index.line_of_sight_error.rms, "rad"), readable_arcsec(index.line_of_sight_error.max));
+  const double size = mechanism.characteristic_length();
+  for (const std::string& line : error_lines(result, measured, size)) tell("  {}\n", line);
   if (result.start > 0.0) tell("  from {} on\n", readable(result.start, "s"));
   for (const ContactSummary& c : result.contact)
     tell("  {}: in contact {} of the time, {} impacts, penetration up to {}, contact forces up to {}\n", c.joint,
          readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"), readable(c.max_force, "N"));
   if (parts)
     for (const std::string& line : parts_lines(*parts)) tell("  {}\n", line);
-  const double size = mechanism.characteristic_length();
   // A warning says the same with what to do about it.
   if (const ModelErrorSaid said = model_error_said(result, wanted, size);
       !result.interrupted && said.warning.empty() && !said.sentence.empty())
@@ -80,8 +73,7 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
            readable(other.result.index.boresight_error.max, "rad"), readable(other.result.cost.cpu_seconds, "s"));
   }
   if (axes && !axes->free && axes->free_boresight > 1e-6) tell("  note: {}\n", axes->sentence);
-  for (const std::string& warning : result.warnings) tell("  warning: {}\n", warning);
-  for (const std::string& warning : material_warnings(assumed)) tell("  warning: {}\n", warning);
+  tell_warnings(result.warnings, command, mechanism);
   tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
@@ -253,7 +245,7 @@ class RunVerb : public Verb {
     Json summary = summary_of(command, *mechanism, choice, result, others, axes, predictability, measured, index, watch,
                               cut_short, out);
     report::Document document =
-        run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability,
+        run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability, measured,
                    step_error_sentence(measured, result.index, index, mechanism->characteristic_length()));
     for (const std::string& warning : material_warnings(assumed_by(command, *mechanism)))
       document.warnings.push_back(warning);
@@ -277,8 +269,7 @@ class RunVerb : public Verb {
     out.publish();
     progress.clear();
     if (!command.quiet)
-      print(*mechanism, choice, result, others, axes, predictability, measured, parts, index,
-            assumed_by(command, *mechanism), out);
+      print(command, *mechanism, choice, result, others, axes, predictability, measured, parts, index, out);
     return cut_short ? kInterrupted : status_with_accuracy(choice, kDone);
   }
 

@@ -1,5 +1,7 @@
 #include "sensitivity/method_result.hpp"
 
+#include <fmt/format.h>
+
 namespace boresight::app {
 
 std::unique_ptr<MethodResult> method_result(const Study& study, const SensitivityPlan& plan, const SampleStore& store) {
@@ -12,6 +14,11 @@ std::unique_ptr<MethodResult> method_result(const Study& study, const Sensitivit
       return shapley_result(study, plan, store);
   }
   return nullptr;
+}
+
+std::string share_text(double share) {
+  const std::string text = fmt::format("{:.3f}", share);
+  return text == "-0.000" ? "0.000" : text;
 }
 
 Json parameters_of(const SensitivityPlan& plan, std::size_t g) {

@@ -36,6 +36,9 @@ std::unique_ptr<MethodResult> screening_result(const Study& study, const Sensiti
                                                const SampleStore& store);
 std::unique_ptr<MethodResult> shapley_result(const Study& study, const SensitivityPlan& plan, const SampleStore& store);
 
+// A share of the variance as terminal, verdict and tile show it, "1.043"; what rounds to nothing has no sign.
+std::string share_text(double share);
+
 // Names of the parameters of group g.
 Json parameters_of(const SensitivityPlan& plan, std::size_t g);
 

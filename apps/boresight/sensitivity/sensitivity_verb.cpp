@@ -9,6 +9,7 @@
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
+#include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/start_warnings.hpp"
@@ -241,7 +242,7 @@ class SensitivityVerb : public Verb {
   static void print(const SensitivityStudy& s, const OutputDirectory& out) {
     if (s.interrupted) tell("  interrupted; the same command goes on\n");
     if (s.result != nullptr) s.result->print(s.rung.name);
-    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell_warnings(s.warnings, s.command, s.mechanism);
     tell("  report: {}\n", (out.path() / "report.html").string());
   }
 

@@ -29,9 +29,8 @@ class ShapleyResult final : public MethodResult {
   std::string sentence() const override {
     if (division_.sd <= 1e-9 * std::abs(division_.mean)) return "The index does not depend on what scatters.";
     const ShapleyGroup& first = division_.groups[order_.front()];
-    const auto share = [](double value) { return readable_share(std::clamp(value, 0.0, 1.0)); };
-    return fmt::format("{} matters most: {} of the variance is its share ({} to {})", first.name,
-                       share(first.effect.value), share(first.effect.low), share(first.effect.high));
+    return fmt::format("{} matters most: its share of the variance is {} ({} to {})", first.name,
+                       share_text(first.effect.value), share_text(first.effect.low), share_text(first.effect.high));
   }
   std::vector<report::Fact> facts() const override {
     return {{"mean of the index", readable(division_.mean, study_.index.si_unit()), "", ""},
@@ -89,8 +88,8 @@ class ShapleyResult final : public MethodResult {
     for (const ShapleyGroup& g : division_.groups) widest = std::max(widest, g.name.size());
     for (const std::size_t k : order_) {
       const ShapleyGroup& g = division_.groups[k];
-      tell("  {:<{}}  Shapley effect {:>6.3f} ({:.3f} to {:.3f})\n", g.name, widest, g.effect.value, g.effect.low,
-           g.effect.high);
+      tell("  {:<{}}  Shapley effect {:>6} ({} to {})\n", g.name, widest, share_text(g.effect.value),
+           share_text(g.effect.low), share_text(g.effect.high));
     }
   }
 

@@ -29,7 +29,7 @@ report::Chart index_chart(const GlobalSensitivity& global, double confidence) {
   report::Chart chart{
       .title = "Share of the variance that each makes",
       .caption = fmt::format("First order: what it makes alone; total: alone and together with all others. Whiskers: "
-                             "{:g} % intervals. A first-order index may come out a little below zero where it is zero.",
+                             "{:g} % intervals. An index may come out a little below zero where it is zero.",
                              100.0 * confidence),
       .x = {"parameter or group", ""},
       .y = {"share of the variance", ""},
@@ -82,8 +82,9 @@ class SobolResult final : public MethodResult {
   std::vector<report::Fact> facts() const override {
     return {{"mean of the index", readable(global_.mean, study_.index.si_unit()), "", ""},
             {"standard deviation", readable(global_.sd, study_.index.si_unit()), "", ""},
-            {"only together", readable_share(std::max(0.0, global_.interactions.value)), "",
-             "of the variance, by no parameter alone"}};
+            {"only together", share_text(global_.interactions.value), "",
+             fmt::format("({} to {}) of the variance, by no parameter alone", share_text(global_.interactions.low),
+                         share_text(global_.interactions.high))}};
   }
   report::Section section() const override {
     report::Section section{
@@ -102,7 +103,7 @@ class SobolResult final : public MethodResult {
     for (const GroupSensitivity& g : global_.groups)
       if (g.undersampled) unsettled += (unsettled.empty() ? "" : ", ") + g.name;
     if (unsettled.empty()) return {};
-    return {"under-sampled (a negative index, or an interval wider than 0.2): " + unsettled +
+    return {"under-sampled (an interval wholly below zero, or wider than 0.2): " + unsettled +
             "; more samples settle it"};
   }
   void add_to(Json& json) const override {
@@ -134,8 +135,9 @@ class SobolResult final : public MethodResult {
     std::size_t widest = 0;
     for (const GroupSensitivity& g : global_.groups) widest = std::max(widest, g.name.size());
     for (const GroupSensitivity& g : global_.groups)
-      tell("  {:<{}}  first {:>6.3f} ({:.3f} to {:.3f})   total {:>6.3f} ({:.3f} to {:.3f})\n", g.name, widest,
-           g.first.value, g.first.low, g.first.high, g.total.value, g.total.low, g.total.high);
+      tell("  {:<{}}  first {:>6} ({} to {})   total {:>6} ({} to {})\n", g.name, widest, share_text(g.first.value),
+           share_text(g.first.low), share_text(g.first.high), share_text(g.total.value), share_text(g.total.low),
+           share_text(g.total.high));
   }
 
  private:
@@ -147,12 +149,15 @@ class SobolResult final : public MethodResult {
 std::string SobolResult::sentence() const {
   if (global_.sd <= 1e-9 * std::abs(global_.mean)) return "The index does not depend on what scatters.";
   const GroupSensitivity& first = global_.groups[by_total(global_).front()];
-  // Estimates of what lies between 0 and 1 may lie beyond; a sentence need not say so, the table does.
-  const auto share = [](double value) { return readable_share(std::clamp(value, 0.0, 1.0)); };
+  // The numbers of the table. Estimates of what lies between 0 and 1 may lie beyond, and that is said.
+  const bool beyond =
+      std::min(first.first.low, first.total.low) < 0.0 || std::max(first.first.high, first.total.high) > 1.0;
   return fmt::format(
-      "{} matters most: {} of the variance alone ({} to {}), {} with all it does together with others ({} to {})",
-      first.name, share(first.first.value), share(first.first.low), share(first.first.high), share(first.total.value),
-      share(first.total.low), share(first.total.high));
+      "{} matters most: its share of the variance is {} alone ({} to {}) and {} with all it does together with others "
+      "({} to {}){}",
+      first.name, share_text(first.first.value), share_text(first.first.low), share_text(first.first.high),
+      share_text(first.total.value), share_text(first.total.low), share_text(first.total.high),
+      beyond ? "; an estimate of a share may come out a little below 0 or above 1" : "");
 }
 
 }  // namespace

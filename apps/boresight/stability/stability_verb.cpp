@@ -10,6 +10,7 @@
 #include "boresight_analyses/stability/stability.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
+#include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/summary.hpp"
 #include "results/tables.hpp"
@@ -134,7 +135,8 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const Stabil
   return json;
 }
 
-void print(const Mechanism& mechanism, const StabilityResult& result, const OutputDirectory& out) {
+void print(const Command& command, const Mechanism& mechanism, const StabilityResult& result,
+           const OutputDirectory& out) {
   tell("{}: where the methods fail{}\n", mechanism.name(), result.interrupted ? " (interrupted)" : "");
   for (const AxisLimit& l : result.limits)
     if (l.method == "RK4")
@@ -145,7 +147,7 @@ void print(const Mechanism& mechanism, const StabilityResult& result, const Outp
              ? std::string("not all limits are where theory has them, nor near")
              : fmt::format("all limits within {} of theory", relative_text(result.largest_difference())));
   for (const FailureCase& c : result.cases) tell("  {:<8} {}: {}\n", to_string(c.standing), c.name, c.measured);
-  for (const std::string& warning : result.warnings) tell("  warning: {}\n", warning);
+  tell_warnings(result.warnings, command, mechanism);
   tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
@@ -187,7 +189,7 @@ class StabilityVerb : public Verb {
     write_report(out, stability_report(command, *mechanism, result));
     out.publish();
     progress.clear();
-    if (!command.quiet) print(*mechanism, result, out);
+    if (!command.quiet) print(command, *mechanism, result, out);
     if (result.interrupted) return kInterrupted;
     return as_foreseen(result) ? kDone : kAnswerIsNo;
   }

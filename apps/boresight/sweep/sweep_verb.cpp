@@ -10,6 +10,7 @@
 #include "boresight_analyses/sweep/sweep_keys.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
+#include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
@@ -86,8 +87,8 @@ void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mech
   }
 }
 
-void print(const Study& study, const SweepPlan& plan, const Mechanism& mechanism, const SweepResult& result,
-           const OutputDirectory& out) {
+void print(const Command& command, const Study& study, const SweepPlan& plan, const Mechanism& mechanism,
+           const SweepResult& result, const OutputDirectory& out) {
   tell("{}: {} points{}; index: {}\n", mechanism.name(), result.points.size(),
        result.interrupted ? " (interrupted; the same command goes on)" : "", study.index.title());
   constexpr std::size_t kShown = 20;
@@ -101,6 +102,7 @@ void print(const Study& study, const SweepPlan& plan, const Mechanism& mechanism
       tell("  {}: {}{}\n", point_name(plan, p, true), to_string(p.status), p.failure.empty() ? "" : ": " + p.failure);
   }
   if (result.points.size() > kShown) tell("  and {} more in sweep.csv\n", result.points.size() - kShown);
+  tell_warnings({}, command, mechanism);
   tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
@@ -162,7 +164,7 @@ class SweepVerb : public Verb {
     begun.results.reset();
     if (!result.interrupted) own.run().forget(kUnfinished);
     stage->clear();
-    if (!command.quiet) print(study, plan, *mechanism, result, out);
+    if (!command.quiet) print(command, study, plan, *mechanism, result, out);
     if (result.interrupted) return kInterrupted;
     if (result.failed == 0) return kDone;
     const auto first = std::find_if(result.points.begin(), result.points.end(),

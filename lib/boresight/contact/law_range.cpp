@@ -21,6 +21,18 @@ std::string number(const char* format, double value) {
   return text;
 }
 
+// With as many more digits as tell it from the limit that it is beyond.
+std::string told_from(double limit, double value, int digits) {
+  const auto text = [&](double v) {
+    char written[40];
+    std::snprintf(written, sizeof written, "%.*g", digits, v);
+    return std::string(written);
+  };
+  constexpr int kMostDigits = 9;
+  while (digits < kMostDigits && text(value) == text(limit)) ++digits;
+  return text(value);
+}
+
 }  // namespace
 
 double contact_half_angle(const NormalLaw& law, const ClearanceParameters& p, double load) {
@@ -45,25 +57,29 @@ std::optional<std::string> out_of_range(const std::string& name, const Clearance
   const NormalLaw law = make_normal_law(name, "", p);
   if (law.curve == ElasticCurve::linear || !(load > 0.0)) return {};
   const double angle = contact_half_angle(law, p, load), degrees = angle * 180.0 / std::numbers::pi;
+  constexpr double kLimit = kHalfSpaceAngle * 180.0 / std::numbers::pi;
   const std::string under = " under " + number("%.4g N", load);
   if (law.curve == ElasticCurve::power) {
     if (p.radial >= kPereiraClearance[0] && p.radial <= kPereiraClearance[1]) return {};
-    return "its clearance of " + number("%.4g mm", 1e3 * p.radial) + " is outside of the 0.005 to 10 mm of the fit";
+    const double passed = kPereiraClearance[p.radial < kPereiraClearance[0] ? 0 : 1];
+    return "its clearance of " + told_from(1e3 * passed, 1e3 * p.radial, 4) +
+           " mm is outside of the 0.005 to 10 mm of the fit";
   }
   if (law.curve == ElasticCurve::conformal) {
     if (angle >= kHalfSpaceAngle) return {};
-    return "the contact spans only " + number("%.2g", degrees) + " degrees to each side" + under +
+    return "the contact spans only " + told_from(kLimit, degrees, 2) + " degrees to each side" + under +
            ", and the law is for 15 and more";
   }
   if (degrees > 89.9)
     return "the contact would be wider than the journal" + under + ", and the law holds up to 15 degrees";
   if (angle > kHalfSpaceAngle)
-    return "the contact spans " + number("%.2g", degrees) + " degrees to each side" + under +
+    return "the contact spans " + told_from(kLimit, degrees, 2) + " degrees to each side" + under +
            ", and the law holds up to 15";
   if (law.curve == ElasticCurve::logarithmic) {
     if (law.depth_under(load) < law.length * kLogarithmicEnd) return {};
-    return "the depth of " + number("%.3g um", 1e6 * law.depth_under(load)) + under +
-           " is beyond the end of its curve, " + number("%.3g um", 1e6 * law.length * kLogarithmicEnd);
+    const double end = 1e6 * law.length * kLogarithmicEnd;
+    return "the depth of " + told_from(end, 1e6 * law.depth_under(load), 3) + " um" + under +
+           " is beyond the end of its curve, " + number("%.3g um", end);
   }
   const double radius = p.journal_radius * std::sin(angle);
   if (p.sleeve_length > 0.0 && radius > 0.5 * p.sleeve_length)

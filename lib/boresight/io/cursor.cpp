@@ -98,8 +98,8 @@ void Cursor::finish() const {
   if (keys_ == nullptr) throw std::logic_error("the table " + path_ + " is read without a table of its keys");
   for (const auto& [key, node] : node_->members) {
     if (asked_.count(key) != 0) continue;
-    throw InputError({document_->filename(), node.line}, path(key), "a key that has no meaning here", "no such key",
-                     nearest_name(key, asked_));
+    throw InputError({document_->filename(), node.line}, path(key), "a key that has no meaning here",
+                     "this table without it", nearest_name(key, asked_));
   }
 }
 

@@ -31,7 +31,8 @@ double Cursor::element(const Node& node, const std::string& where, const SiUnit*
   document_->record_written(where, node.text);
   const bool is_number = node.kind == Node::Kind::integer || node.kind == Node::Kind::number;
   if (unit == nullptr || (is_number && takes_numbers(*unit))) {
-    if (!is_number || !std::isfinite(node.number)) throw InputError(here, where, shown(node), "a number");
+    if (!is_number || !std::isfinite(node.number))
+      throw InputError(here, where, shown(node), is_number ? "a finite number" : "a number");
     return node.number;
   }
   if (is_number) throw InputError(here, where, shown(node) + " without a unit", expected_value(unit));
@@ -124,6 +125,9 @@ long long Cursor::whole(const Key& key, const std::string& name) {
     read = static_cast<long long>(number);
   } else {
     const Node& node = required(name, "a whole number");
+    // Shown as "1" it would look like one.
+    if (node.kind == Node::Kind::number && node.number == std::floor(node.number) && std::isfinite(node.number))
+      fail_found(name, "the number " + node.text + " with a decimal point", "a whole number, such as " + node.text);
     require(node.kind == Node::Kind::integer, name, "a whole number");
     read = node.integer;
   }

@@ -140,7 +140,7 @@ class Expansion {
     SpringDescription spring;
     spring.preloads = fixed.name;
     spring.origin = cursor.origin();
-    const int shaft = body_index(mechanism_, cursor, "journal", cursor.text("journal"), true);
+    const int shaft = read_journal(cursor, mechanism_, fixed);
     spring.first = shaft == fixed.first ? fixed.second : fixed.first;
     spring.second = shaft;
     spring.first_point = floating;

@@ -47,6 +47,8 @@ int body_index(const MechanismDescription& mechanism, const Cursor& cursor, cons
                const std::string& name, bool ground_allowed);
 int joint_index(const MechanismDescription& mechanism, const Cursor& cursor, const std::string& key,
                 const std::string& name);
+// The key `journal` of a clearance: one of the joint's two bodies.
+int read_journal(Cursor& cursor, const MechanismDescription& mechanism, const JointDescription& joint);
 // connects = [FIRST, SECOND]: two different bodies, one of which may be the ground.
 std::pair<int, int> read_connects(Cursor& cursor, const MechanismDescription& mechanism);
 

@@ -77,6 +77,19 @@ int joint_index(const MechanismDescription& mechanism, const Cursor& cursor, con
   cursor.fail_found(key, in_quotes(name), "the name of a joint", nearest_name(name, names));
 }
 
+int read_journal(Cursor& cursor, const MechanismDescription& mechanism, const JointDescription& joint) {
+  const auto name = [&](int body) {
+    return body == kGround ? std::string("ground") : mechanism.bodies[static_cast<std::size_t>(body)].name;
+  };
+  const std::string either =
+      "one of the bodies of joint " + joint.name + ": " + name(joint.first) + " or " + name(joint.second);
+  if (!cursor.has("journal")) cursor.fail("journal", either);
+  const std::string given = cursor.text("journal");
+  const int body = body_index(mechanism, cursor, "journal", given, true);
+  if (body != joint.first && body != joint.second) cursor.fail_found("journal", in_quotes(given), either);
+  return body;
+}
+
 std::pair<int, int> read_connects(Cursor& cursor, const MechanismDescription& mechanism) {
   const std::vector<std::string> names = cursor.texts("connects");
   const int first = body_index(mechanism, cursor, "connects", names[0], true);

@@ -180,14 +180,7 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
   cursor.rename("clearance." + joint.name);
 
   cursor.choice("bearing");  // one by now
-  const std::string journal = cursor.text("journal");
-  clearance.journal = body_index(so_far, cursor, "journal", journal, true);
-  if (clearance.journal != joint.first && clearance.journal != joint.second) {
-    const auto name = [&](int body) { return body == kGround ? std::string("ground") : so_far.bodies[body].name; };
-    cursor.fail_found(
-        "journal", in_quotes(journal),
-        "one of the bodies of joint " + joint.name + ": " + name(joint.first) + " or " + name(joint.second));
-  }
+  clearance.journal = read_journal(cursor, so_far, joint);
   const bool ball = joint.type == JointType::spherical, pad = joint.type == JointType::planar;
   const bool slider = joint.type == JointType::prismatic && cursor.choice("guide") == "rectangular";
   if (cursor.has_by_name("guide") && joint.type != JointType::prismatic)

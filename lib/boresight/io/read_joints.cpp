@@ -54,6 +54,13 @@ JointDescription read_joint(Cursor& cursor, const MechanismDescription& so_far) 
     cursor.fail_found("driven", std::string("a driven ") + to_string(joint.type) + " joint",
                       "a drive on a revolute or prismatic joint");
   }
+  if (!has_axis && cursor.has("axis"))
+    cursor.fail_found(
+        "axis", std::string("an axis on a ") + to_string(joint.type) + " joint",
+        joint.type == JointType::spherical ? "no axis: it turns about every one" : "no axis: it does not turn");
+  if (joint.type != JointType::universal && cursor.has("second_axis"))
+    cursor.fail_found("second_axis", std::string("a second axis on a ") + to_string(joint.type) + " joint",
+                      "it only on a universal joint");
   cursor.finish();
   return joint;
 }

@@ -132,6 +132,18 @@ TEST(SobolIndices, SayWhenTheSampleDoesNotSettleThem) {
   EXPECT_FALSE(many.groups[0].undersampled());
 }
 
+// What is zero comes out a little below as often as above.
+TEST(SobolIndices, AreSettledWhereTheIntervalHoldsZero) {
+  SobolIndices<Independent>::Group group;
+  group.first.value = -0.0003;
+  group.first.low = -0.001;
+  group.first.high = 0.0004;
+  group.total.value = group.total.low = group.total.high = 0.0;
+  EXPECT_FALSE(group.undersampled());
+  group.first.high = -0.0001;
+  EXPECT_TRUE(group.undersampled());
+}
+
 TEST(SobolIndices, OfAConstantAreZero) {
   std::mt19937_64 engine(7);
   const auto i = sobol_indices(

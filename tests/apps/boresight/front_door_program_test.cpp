@@ -30,6 +30,27 @@ TEST_F(FrontDoor, NewFilesCheckRunAndScatterAsTheyStand) {
               AllOf(HasSubstr("at or below 30 arcsec in 95 %"), HasSubstr("p95 "), Not(HasSubstr("rad "))));
 }
 
+// What run says of a material that nobody gave, every verb says that computes with it, and once.
+TEST_F(FrontDoor, EveryVerbSaysWhichMaterialItTookForGranted) {
+  std::string mechanism;
+  {
+    std::ifstream in(mechanism_);
+    for (std::string line; std::getline(in, line);)
+      if (line.find("young = ") == std::string::npos) mechanism += line + "\n";
+  }
+  std::ofstream(folder_ / "bare.toml") << mechanism;
+  std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"bare.toml\"\n[[sweep.axis]]\n"
+                                           "parameter = \"clearance.F1.radial\"\nvalues = [\"0.1 mm\", \"0.2 mm\"]\n";
+  for (const char* verb : {"run", "sweep"}) {
+    const Ended ended = call({verb, std::string(verb) == "run" ? "bare.toml" : "study.toml", "--rung", "quasistatic",
+                              "--set", "motion.duration=20ms", "--out", verb});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    const std::size_t first = ended.out.find("not given, so assumed");
+    EXPECT_NE(first, std::string::npos) << verb << ": " << ended.out;
+    EXPECT_EQ(ended.out.find("not given, so assumed", first + 1), std::string::npos) << verb;
+  }
+}
+
 TEST_F(FrontDoor, NewOverwritesNothing) {
   std::filesystem::create_directory(folder_ / "mine");
   std::ofstream(folder_ / "mine/montecarlo.toml") << "precious";

@@ -13,6 +13,7 @@ namespace optimise_program_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class OptimiseProgram : public Program {
  protected:
@@ -66,6 +67,10 @@ TEST_F(OptimiseProgram, MatchFindsThatTheTightestJointPointsBestAndSaysThatItIsA
   EXPECT_THAT(summary["warnings"].dump(), HasSubstr("at its bound"));
   EXPECT_EQ(summary["confirmation"]["rung"], "perturbation");
   EXPECT_THAT(text("out/report.html"), HasSubstr("Matching"));
+  // Both values of the confirmation in the unit of the answer.
+  EXPECT_THAT(
+      summary["confirmation"]["sentence"].get<std::string>(),
+      testing::ContainsRegex("gives [0-9.]+ (mm|µm|mrad|µrad) where the search had [0-9.]+ (mm|µm|mrad|µrad):"));
 }
 
 TEST_F(OptimiseProgram, MatchReusesEveryEvaluationOfAnEarlierRun) {
@@ -222,7 +227,7 @@ processes = [
 )";
   const Ended ended = call({"allocate", "study.toml", "--rung", "quasistatic", "--out", "out"});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  EXPECT_THAT(ended.out, HasSubstr("nothing cheaper keeps the limit"));
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("nothing cheaper keeps the limit"), Not(HasSubstr("is not used"))));
   const auto summary = json("out/summary.json");
   EXPECT_EQ(summary["chosen"]["price"], 11);
   EXPECT_EQ(summary["chosen"]["proven"], true);

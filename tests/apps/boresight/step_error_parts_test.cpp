@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "run/error_lines.hpp"
+
 namespace boresight::app {
 namespace step_error_parts_test {
 
@@ -75,6 +77,36 @@ TEST(StepErrorSentence, CallsRoundingByItsName) {
               HasSubstr("within rounding of what smaller steps give"));
   EXPECT_THAT(step_error_sentence(off_by(1e-6, 0.0), indices(1e-4, 0.0), kMaximum, 1.0),
               HasSubstr("within 1 % of what smaller steps give"));
+}
+
+// The RMS of a turn is not as good as the maximum of a distance: each figure has its own.
+TEST(StatedErrorText, IsOfTheFigureBesideIt) {
+  RunResult result;
+  result.index = indices(1e-4, 1e-3);
+  const MeasuredError measured = off_by(2e-6, 3.8e-4);
+  EXPECT_EQ(stated_error_text(measured, result, kMaximum, 1.0), "± 2 %");
+  EXPECT_EQ(stated_error_text(measured, result, kTurn, 1.0), "± 38 %");
+  EXPECT_EQ(stated_error_text(off_by(2e-3, 0.0), result, kMaximum, 1.0), "± 20 times it");
+}
+TEST(StatedErrorText, HoldsWhatTheRungLeavesOutToo) {
+  EXPECT_EQ(stated_error_text(off_by(2e-6, 0.0), left_out(0.1, indices(1e-4, 0.0)), kMaximum, 1.0), "± 12 %");
+}
+TEST(StatedErrorText, IsEmptyWhereNothingWasMeasuredAndOfRounding) {
+  EXPECT_THAT(stated_error_text({}, left_out(0.1, indices(1e-4, 0.0)), kMaximum, 1.0), IsEmpty());
+  EXPECT_THAT(stated_error_text(off_by(3e-13, 0.0), left_out(0.0, indices(1e-14, 0.0)), kMaximum, 1.0), IsEmpty());
+}
+TEST(ErrorLines, StandWithTheirOwnUncertainties) {
+  RunResult result;
+  result.index = indices(1e-4, 0.0);
+  result.index.position_error.rms = 0.5e-4;
+  MeasuredError measured = off_by(2e-6, 0.0);
+  measured.stated.position_error.rms = 0.5e-5;
+  const std::vector<std::string> with = error_lines(result, measured, 1.0), without = error_lines(result, {}, 1.0);
+  EXPECT_THAT(with.front(), AllOf(HasSubstr("± 2 %"), HasSubstr("± 10 %")));
+  ASSERT_EQ(with.size(), 3U);
+  EXPECT_THAT(with.back(), AllOf(HasSubstr("what steps do"), Not(HasSubstr("leaves out"))));
+  EXPECT_EQ(without.size(), 2U);
+  EXPECT_THAT(without.front(), Not(HasSubstr("±")));
 }
 
 TEST(ModelErrorSaid, IsASentenceToATenthAndAWarningBeyond) {

@@ -68,6 +68,10 @@ TEST_F(UntrustedInputTest, AnEmptyNameIsTheUsersFault) {
   write("study.toml", study("[calibrate]\n[[calibrate.parameter]]\npath = "
                             "\"clearance.F1.radial\"\n[[calibrate.run]]\ndata = \"a.csv\"\nname = \"\"\n"));
   expect_fault({"calibrate", "study.toml"}, HasSubstr("study.toml:8: calibrate.run[1].name: found \"\""));
+  // The key that is in the file, and not the one that it stands in for.
+  write("study.toml", study("[calibrate]\n[[calibrate.parameter]]\npath = "
+                            "\"clearance.F1.radial\"\n[[calibrate.run]]\ndata = \"\"\n"));
+  expect_fault({"calibrate", "study.toml"}, HasSubstr("study.toml:7: calibrate.run[1].data: found \"\""));
 }
 
 TEST_F(UntrustedInputTest, NoControlCharacterOfAFileReachesTheTerminal) {

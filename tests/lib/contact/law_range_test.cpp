@@ -47,6 +47,17 @@ TEST(LawRange, WarningNamesJointLawReasonAndOneThatFits) {
   EXPECT_FALSE(range_warning("F1", "flores", joint(0.1e-3), 10.0));
 }
 
+TEST(LawRange, TellsAnAngleFromTheLimitThatItPasses) {
+  const ClearanceParameters p = joint(0.1e-3);
+  double within = 0.0, beyond = 1e6;
+  while (beyond - within > 1e-6 * beyond) {
+    const double load = 0.5 * (within + beyond);
+    (out_of_range("flores", p, load) ? beyond : within) = load;
+  }
+  const std::string reason = out_of_range("flores", p, 1.001 * beyond).value();
+  EXPECT_NE(reason.find("spans 15.0"), std::string::npos) << reason;
+}
+
 TEST(LawRange, NeverSpeaksOfAContactWithoutLoad) {
   for (const NormalLawEntry& entry : normal_laws())
     EXPECT_FALSE(out_of_range(entry.name, joint(1e-5), 0.0)) << entry.name;
