@@ -23,12 +23,14 @@ constexpr double kOfRounding = 1e-9;
 // An index of an ideal motion, or its error, that is smaller than this share of the mechanism's size, or this angle, is what rounding and the
 // tolerances of an integrator leave: no clearance and no error of a drawing is as small.
 constexpr double kNothing = 1e-9;
-bool is_nothing(double value, const IndexChoice& of, double size) {
+// Where there is neither play nor error, indices are what the integration itself leaves of the ideal motion: up to this share that is followed.
+constexpr double kFollowed = 1e-5;
+bool is_nothing(double value, const IndexChoice& of, double size, double share = kNothing) {
   // A line of sight errs by a displacement over its target's distance: of a thousand kilometres.
   const double unit = of.kind() == PointingQuantity::position_error        ? size
                       : of.kind() == PointingQuantity::line_of_sight_error ? 1e-6
                                                                            : 1.0;
-  return std::abs(value) <= kNothing * unit;
+  return std::abs(value) <= share * unit;
 }
 
 // Neighbouring steps lie as far from each other as from finer ones.
@@ -48,10 +50,11 @@ std::string of_what_is_found(double relative) {
 }  // namespace
 
 std::string steps_mislead(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of,
-                          double size) {
+                          double size, bool deviates) {
   if (!measured.measured || measured.runs == 0) return "";
-  const double relative = relative_step_error(measured, index, of);
-  if (!(relative > 1.0) || (is_nothing(of.of(index), of, size) && is_nothing(of.of(measured.stated), of, size)))
+  const double relative = relative_step_error(measured, index, of), nothing = deviates ? kNothing : kFollowed;
+  if (!(relative > 1.0) ||
+      (is_nothing(of.of(index), of, size, nothing) && is_nothing(of.of(measured.stated), of, size, nothing)))
     return "";
   if (scatters(measured, of))
     return fmt::format(

@@ -23,8 +23,9 @@ std::string stated_error_text(const MeasuredError& measured, const RunResult& re
                               double size);
 
 // A warning where the steps leave out as much as there is, or more, and it is not that one motion is unlike the next; else empty.
+// deviates: whether there is play or a standing error at all.
 std::string steps_mislead(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of,
-                          double size);
+                          double size, bool deviates = true);
 
 // What the rung leaves out by its own estimate, of the index that is asked for, and whether that is enough for a warning. Empty where nothing
 // is left out, or nothing deviates.

@@ -7,6 +7,7 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/perturbation/predictability.hpp"
@@ -221,7 +222,8 @@ class RunVerb : public Verb {
       if (!cut_short) measured = step_error(*rung, mechanism->parameters(), options, result, progress);
       cut_short = cut_short || interrupted();
       if (measured.measured) result.error.discretisation = relative_step_error(measured, result.index, index);
-      if (const std::string warning = steps_mislead(measured, result.index, index, mechanism->characteristic_length());
+      if (const std::string warning = steps_mislead(measured, result.index, index, mechanism->characteristic_length(),
+                                                    mechanism->clearances() > 0 || has_errors(mechanism->parameters()));
           !warning.empty())
         result.warnings.push_back(warning);
       if (const ModelErrorSaid said = model_error_said(result, index, mechanism->characteristic_length());

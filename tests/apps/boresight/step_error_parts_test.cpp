@@ -58,6 +58,10 @@ TEST(StepsMislead, ButNotAboutTheRoundingOfAMotionWithoutError) {
   EXPECT_THAT(steps_mislead(off_by(3e-13, 0.0), indices(1e-14, 0.0), kMaximum, 1e-6), HasSubstr("not followed"));
   // Nor is it where what smaller steps give is large.
   EXPECT_THAT(steps_mislead(off_by(1e-5, 0.0), indices(1e-14, 0.0), kMaximum, 1.0), HasSubstr("not followed"));
+  // Without play and errors the index is the integration's own error, and a tenth of a micrometre in a metre is followed well.
+  EXPECT_THAT(steps_mislead(off_by(5e-7, 0.0), indices(1e-7, 0.0), kMaximum, 1.0, false), IsEmpty());
+  EXPECT_THAT(steps_mislead(off_by(5e-7, 0.0), indices(1e-7, 0.0), kMaximum, 1.0, true), HasSubstr("not followed"));
+  EXPECT_THAT(steps_mislead(off_by(5e-3, 0.0), indices(1e-3, 0.0), kMaximum, 1.0, false), HasSubstr("not followed"));
 }
 // Nine figures of per cent say nothing that one word does not.
 TEST(StepErrors, ManyTimesWhatIsFoundAreNoPercentages) {
