@@ -114,8 +114,8 @@ drives = { J1 = "0", J2 = "0", J3 = "0" }
   joint("J1", "[\"ground\", \"b1\"]");
   joint("J2", "[\"b1\", \"b2\"]");
   joint("J3", "[\"b2\", \"b3\"]");
-  const auto error = [&](const char* name, const char* joint, const char* body, const char* axis, const char* value) {
-    text += "[[error]]\nname = \"" + std::string(name) + "\"\njoint = \"" + joint + "\"\nbody = \"" + body +
+  const auto error = [&](const char* name, const char* at, const char* body, const char* axis, const char* value) {
+    text += "[[error]]\nname = \"" + std::string(name) + "\"\njoint = \"" + at + "\"\nbody = \"" + body +
             "\"\nrotation = " + axis + "\nvalue = \"" + value + "\"\n";
   };
   error("a", "J1", "ground", "[1, 0, 0]", "1 mrad");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "boresight/io/expression.hpp"
+#include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/kinematic_report.hpp"
 #include "reference/reference.hpp"
 #include "scenes.hpp"
