@@ -76,6 +76,12 @@ JointConstraint::JointConstraint(const Mechanism& mechanism, int joint, Clearanc
   const JointType type = description.type;
   if (clearance_rows == ClearanceRows::free) {
     add_free_rows(type);
+    // Turns are zero at home, where the second axis lies as drawn.
+    const Mat3 A =
+        reference_.body == kGround ? Mat3(Mat3::Identity()) : mechanism.description().bodies[reference_.body].axes;
+    const Vec3 second = (A * reference_.R).transpose() * description.second_axis;
+    for (Row& row : rows_)
+      if (row.kind == Kind::turn && row.a == 0) row.home = std::atan2(second.x(), second.z());
     return;
   }
   for (int axis = 0; axis < 3; ++axis) {
@@ -172,7 +178,7 @@ void JointConstraint::evaluate(const std::vector<BodyMotion>& bodies, const Time
           const DirectionTurn turn = turn_of_direction(s, B.w, XA.col(0), XA.col(2), A.w);
           rows.reference.row(i) << Vec3::Zero().transpose(), -turn.gradient.transpose();
           rows.other.row(i) << Vec3::Zero().transpose(), turn.gradient.transpose();
-          rows.value[i] = turn.angle;
+          rows.value[i] = wrapped(turn.angle - row.home);
           rows.rate[i] = w_rel.dot(turn.gradient);
           bias = w_rel.dot(turn.gradient_rate);
         } else {

@@ -14,7 +14,9 @@ bool moves_too_fast(const Mechanism& mechanism, double t, double step) {
   const double length = mechanism.characteristic_length();
   const auto too_fast = [&](const TimeFunctionPtr& law, double scale) {
     const TimeValue from = law->at(t), to = law->at(std::min(t + step, mechanism.duration()));
-    return std::max(std::abs(to.value - from.value), step * std::abs(from.rate)) > kFollowedInAStep * scale;
+    // What is guessed of the step's end from its beginning counts too: there a law may stand still and be elsewhere at once.
+    const double guessed = step * std::abs(from.rate) + 0.5 * step * step * std::abs(from.acceleration);
+    return std::max(std::abs(to.value - from.value), guessed) > kFollowedInAStep * scale;
   };
   for (const auto& [joint, law] : m.motion.drives)
     if (too_fast(law, m.joints[joint].type == JointType::prismatic ? length : 1.0)) return true;

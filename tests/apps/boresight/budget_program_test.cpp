@@ -45,12 +45,12 @@ members = )" << members << '\n' << more;
 };
 
 TEST_F(BudgetProgram, AnswersARequirementThatIsMetAndWritesWhatItSays) {
-  study(requirement("1 deg") +
+  study(requirement("3 deg") +
         "[[budget.contributor]]\nname = \"mounting\"\nclass = \"bias\"\nvalue = \"60 arcsec\"\n");
   const Ended ended = call(arguments());
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_THAT(ended.out,
-              AllOf(HasSubstr("APE, half cone, mixed, 80 %"), HasSubstr("limit 1 deg: met"), Not(HasSubstr("arcsec"))));
+              AllOf(HasSubstr("APE, half cone, mixed, 80 %"), HasSubstr("limit 3 deg: met"), Not(HasSubstr("arcsec"))));
   const auto summary = json("out/summary.json");
   EXPECT_TRUE(summary["requirements"][0]["met"].get<bool>());
   EXPECT_EQ(summary["levels"].size(), 3u * 3u * 3u);  // APE, MPE, RPE; three axes; three interpretations
@@ -72,7 +72,7 @@ TEST_F(BudgetProgram, AnswersARequirementThatIsMetAndWritesWhatItSays) {
 }
 
 TEST_F(BudgetProgram, AnswersNoWhereARequirementIsNotMetAndReusesTheRuns) {
-  study(requirement("1 deg"));
+  study(requirement("3 deg"));
   ASSERT_EQ(call(arguments({"--quiet"})).status, 0);
   const auto before = json("out/summary.json");
   study(requirement("1 arcsec"));
