@@ -175,6 +175,50 @@ TEST(MeasuredError, OfScatteringRunsIsByTheDeviationWithinBothGroups) {
               std::abs(rung.gave[0] - mean(rung.gave)) + shift + 2.776 * spread * std::sqrt(4.0 / 3.0), 1e-3 * spread);
 }
 
+// A motion whose first peak all runs have in common. Later on they go their own ways, and hardly stay below it: `late` times as high, by chance.
+// Where `moves`, the first peak falls into one part of the motion or into the next.
+class PeakBeforeChance final : public Rung {
+ public:
+  PeakBeforeChance(double late, double chance, bool moves) : late_(late), chance_(chance), moves_(moves) {}
+  std::string name() const override { return "perturbation"; }
+  std::string leaves_out() const override { return ""; }
+  RunResult run(const Parameters&, const RunOptions& options) const override {
+    const double step = options.step > 0.0 ? options.step : 1e-4;
+    RunResult result;
+    result.end_time = 1.0;
+    result.error.discretisation = kNotMeasured;
+    result.cost.steps = static_cast<std::int64_t>(1.0 / step);
+    const double draw = std::sin(1e7 * step + static_cast<double>(runs_));
+    result.index.position_error.max = 1e-3;
+    result.index.position_error.rms = 5e-4 * (1.0 + 0.01 * draw);
+    auto& peaks = result.peaks[0];
+    peaks.fill(4e-4);
+    peaks[moves_ && runs_ % 2 == 1 ? 8 : 7] = 1e-3;
+    peaks[25] = 1e-3 * (late_ + chance_ * draw);
+    ++runs_;
+    return result;
+  }
+
+ private:
+  double late_, chance_;
+  bool moves_;
+  mutable int runs_ = 0;
+};
+
+TEST(MeasuredError, OfAMaximumIsNoLessThanWhatALaterPartMayReach) {
+  const auto stated = [](double late, double chance, bool moves) {
+    const PeakBeforeChance rung(late, chance, moves);
+    const RunResult run = rung.run({}, {});
+    const MeasuredError error = measure_discretisation(rung, {}, {}, run);
+    EXPECT_TRUE(error.measured) << error.why_not;
+    return error.stated.position_error.max;
+  };
+  EXPECT_GT(stated(0.9, 0.09, false), 0.5e-4);  // the next run may well be above
+  EXPECT_LT(stated(0.9, 0.0, false), 1e-9);
+  EXPECT_LT(stated(0.5, 0.04, false), 1e-9) << "far below, whatever chance does";
+  EXPECT_LT(stated(0.5, 0.0, true), 1e-9) << "a peak between two parts is none by chance";
+}
+
 // A run whose neighbours all fail went through by chance: what smaller steps give says what it is worth.
 TEST(MeasuredError, IsThatOfFinerRunsWhereNoNeighbourCanBeFollowed) {
   const RunResult run = OnTheEdge(1.0).run({}, {});
