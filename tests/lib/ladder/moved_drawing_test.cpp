@@ -141,7 +141,7 @@ TEST(MovedDrawing, ByTenKilometresChangesNoAccelerationOfAPrescribedPose) {
 
 // Two arms on a universal joint that nothing drives, one joint with play. Which coordinates serve is looked at during the motion; a longer one
 // must not take other ones that fail where it starts.
-TEST(MotionOnAUniversalJoint, StartsAtRestHoweverLongItIs) {
+TEST(MotionOnAUniversalJoint, StartsAtRestForAnyDuration) {
   for (const double duration : {0.3, 0.5, 1.0}) {
     MechanismDescription m;
     m.gravity = Vec3(0.0, 0.0, -9.81);
@@ -160,7 +160,8 @@ TEST(MotionOnAUniversalJoint, StartsAtRestHoweverLongItIs) {
     options.sample_spacing = duration;
     for (const char* rung : {"multibody", "perturbation"}) {
       const RunResult run = make_rung(rung, mechanism)->run(mechanism->parameters(), options);
-      EXPECT_NEAR(run.clearances[0].front().offset.norm(), m.clearances[0].parameters.radial,
+      const Vec3 offset = run.clearances[0].front().offset;  // y along the axis
+      EXPECT_NEAR(std::hypot(offset.x(), offset.z()), m.clearances[0].parameters.radial,
                   0.05 * m.clearances[0].parameters.radial)
           << rung << ", " << duration << " s";
     }
