@@ -120,8 +120,8 @@ void JointConstraint::add_free_rows(JointType type) {
     return;
   }
   if (type == JointType::spherical) {
-    rows_.push_back({Kind::swing, 0});
-    rows_.push_back({Kind::swing, 2});
+    rows_.push_back({Kind::angle, 0, 1});
+    rows_.push_back({Kind::angle, 2, 1});
   }
   if (type != JointType::prismatic && type != JointType::fixed) rows_.push_back({Kind::twist});
 }
@@ -170,22 +170,6 @@ void JointConstraint::evaluate(const std::vector<BodyMotion>& bodies, const Time
         rows.value[i] = twist_about_y(XA.transpose() * XB);
         rows.rate[i] = w_rel.dot(m);
         bias = w_rel.dot(m_dot);
-        break;
-      }
-      case Kind::swing: {
-        const Vec3 a = XA.col(row.a), yA = XA.col(1), yB = XB.col(1);
-        const Vec3 across = a.cross(yB), apart = yA.cross(yB);
-        const double n = 2.0 * a.dot(yB), sum = 1.0 + yA.dot(yB), value = n / sum;
-        const Vec3 g = (2.0 * across - value * apart) / sum;
-        rows.reference.row(i) << Vec3::Zero().transpose(), g.transpose();
-        rows.other.row(i) << Vec3::Zero().transpose(), -g.transpose();
-        rows.value[i] = value;
-        rows.rate[i] = -w_rel.dot(g);
-        const Vec3 yB_dot = B.w.cross(yB);
-        const Vec3 across_dot = A.w.cross(a).cross(yB) + a.cross(yB_dot),
-                   apart_dot = A.w.cross(yA).cross(yB) + yA.cross(yB_dot);
-        const double sum_dot = -w_rel.dot(apart);
-        bias = -w_rel.dot((2.0 * across_dot - rows.rate[i] * apart - value * apart_dot - g * sum_dot) / sum);
         break;
       }
       case Kind::turn: {

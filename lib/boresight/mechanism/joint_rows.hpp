@@ -5,11 +5,9 @@
 //   distance  g = a . d                     gdot = a . (v_B + w_B x r_B) - a . (v_A + w_A x r_A) + (w_A x a) . d
 //   angle     g = a . b                     gdot = (w_A - w_B) . (a x b)
 //   twist     g = turn of B about y_A       gdot = (w_B - w_A) . m,  m = (y_A + y_B) / (1 + y_A . y_B)
-//   swing     g = 2 a . y_B / (1 + y_A . y_B)
 //   turn      g = atan2(v . e, v . f)       gdot = (w_v - w_e) . (v x (e (v . f) - f (v . e))) / ((v . e)^2 + (v . f)^2)
 // Each with gddot = J vdot + bias. The twist is that of the swing-twist decomposition (the angle left when B's axis is
-// swung onto A's by the shortest way), so it stays smooth when a journal tilts. The swing is that of a ball's axis, by
-// stereographic projection: regular but half a turn away. The turn is that of an axis v of one body about the normal of e
+// swung onto A's by the shortest way), so it stays smooth when a journal tilts. The turn is that of an axis v of one body about the normal of e
 // and f of the other: a universal joint's two turns, which no pose of it makes singular. Sources: Nikravesh (1988), Computer-Aided
 // Analysis of Mechanical Systems, chapter 7, for the first two; the others derived here, held against differences in a test.
 #pragma once
@@ -60,7 +58,7 @@ class JointConstraint {
   void evaluate(const std::vector<BodyMotion>& bodies, const TimeValue& law, JointRows& rows) const;
 
  private:
-  enum class Kind { distance, angle, twist, turn, swing };
+  enum class Kind { distance, angle, twist, turn };
   struct Row {
     Kind kind;
     int a = 0;  // axis of the reference frame: 0 x, 1 y, 2 z; of a turn: 0 about the first axis, 1 about the second

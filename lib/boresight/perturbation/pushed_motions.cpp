@@ -170,7 +170,7 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
   if (by_steps && result.cost.steps > 0) beside.step = result.end_time / static_cast<double>(result.cost.steps);
 
   const double length = mechanism.characteristic_length();
-  PerQuantity measured = {}, by_pushes = {}, by_chance = {};
+  PerQuantity measured = {}, by_pushes = {}, by_what_is_missed = {}, by_chance = {};
   bool more = false;
   try {
     for (const double times : {1.0, -1.0}) {
@@ -178,10 +178,15 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
       const RunResult pushed = follow(pushed_by(beyond, times, mechanism.duration(), *tables), beside);
       if (pushed.interrupted) return;
       raise(by_pushes, moved(result.index, pushed.index, length));
+      if (times > 0.0) by_what_is_missed = by_pushes;
     }
     for (int k = 0; k < kPointingQuantities; ++k) {
       by_pushes[k] *= kWithTheRest;
       measured[k] = std::min(1.0, beyond.pose[k] + by_pushes[k]);
+      // Taken away, it shows how much hangs on little. Of a freedom that nothing drives that may be all of the motion: where what is missed
+      // moves less than the share, no more than the share is stated.
+      if (beyond.free && beyond.pose[k] + kWithTheRest * by_what_is_missed[k] <= beyond.whole[k])
+        measured[k] = std::min(measured[k], beyond.whole[k]);
       more = more || measured[k] > beyond.whole[k];
     }
     for (const double share : kNeighbours) {

@@ -190,6 +190,7 @@ class LeftOut {
                                                               length * miss_[kAimed].size()});
     const auto of_all = [](double share) { return std::isfinite(share) ? std::min(share, 1.0) : 1.0; };
     SecondOrder found;
+    found.free = coordinates_.leftover() > 0;
     found.missed = missed_;
     found.start = at_rest.start;
     for (int k = 0; k < kKinds; ++k) {

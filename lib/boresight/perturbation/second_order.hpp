@@ -82,7 +82,8 @@ struct Missed {
 struct SecondOrder {
   PerQuantity pose = {};  // by pose, contacts and rest, relative to the rung's own indices
   PerQuantity whole =
-      {};  // by all of it; 1 where a deviation cannot be made exactly (a singular pose within its reach)
+      {};             // by all of it; 1 where a deviation cannot be made exactly (a singular pose within its reach)
+  bool free = false;  // whether there is a freedom that nothing drives
   std::vector<Missed> missed;  // in the order of time, where it is wanted
   VecX start;  // likewise: of the coordinates and their rates as journals rest, beyond the linear balance
 };

@@ -181,25 +181,6 @@ TEST(JointRows, OfAUniversalJointAreItsTwoTurnsInEveryPose) {
     }
 }
 
-// A ball's axis that swings through a right angle and on: what the slope of one axis against the other tells is lost there.
-TEST(JointRows, OfABallJointAreCoordinatesOfEverySwingShortOfHalfATurn) {
-  const Mechanism mechanism(two_bodies(JointType::spherical, false, nullptr, false));
-  const MechanismDescription& m = mechanism.description();
-  const JointConstraint free(mechanism, 0, ClearanceRows::free, false);
-  ASSERT_EQ(free.count(), 3);
-  std::vector<BodyMotion> bodies;
-  for (const BodyDescription& b : m.bodies) bodies.push_back({b.center_of_mass, b.axes, Vec3::Zero(), Vec3::Zero()});
-  const Mat3 home = bodies[1].R;
-  JointRows rows;
-  for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0.6, 0, 0.8), Vec3(1, 1, 1)})
-    for (const double angle : {0.0, 0.5, 0.5 * M_PI, 2.0, 2.8}) {
-      bodies[1].R = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix() * home;
-      free.evaluate(bodies, {}, rows);
-      const Mat3 by_turn = rows.other.topRightCorner<3, 3>();
-      EXPECT_GT(by_turn.jacobiSvd().singularValues()[2], 0.5) << axis.transpose() << ", " << angle;
-    }
-}
-
 TEST(JointRows, AllRowsVanishAtHome) {
   for (JointType type : kTypes) {
     const Mechanism mechanism(two_bodies(type, false, nullptr, false));
