@@ -114,6 +114,7 @@ class Perturbation final : public SceneRung {
     bool interrupted = false;
     MatX compliance;
     DampingWatch damping(mechanism, h, limit);
+    const bool looked_at = options.model_look != ModelLook::none;
     const long damping_every = std::max(1L, steps / 50);
     largest.forget();
     // Not the Integrator's loop, as in multibody/fixed_steps.cpp; that one closes joints and balances energy besides.
@@ -134,7 +135,7 @@ class Perturbation final : public SceneRung {
         if (i % damping_every == 0)
           damping.look(t, offsets, system.joints(), system.motion(), system.trackers(), compliance);
       }
-      record(prepared, standing, t, y, method.first_slope(), system, recorder, largest);
+      record(prepared, standing, t, y, method.first_slope(), system, looked_at, recorder, largest);
       if (i == steps) break;
       if (options.progress && i % kStepsBetweenLooks == 0 &&
           !options.progress({t, duration, recorder.position_error_max()})) {
@@ -172,6 +173,7 @@ class Perturbation final : public SceneRung {
     largest.forget();
     bool interrupted = false;
     long ends = 0;  // of steps
+    const bool looked_at = options.model_look != ModelLook::none;
     system.start_located(0.0, y);
     const IntegrationSummary summary = follow_located(
         integrator, system, duration, options.sample_spacing, y,
@@ -179,7 +181,7 @@ class Perturbation final : public SceneRung {
         [&](double t, const VecX& state, bool at_end) {
           system.derivative(t, state, slope);
           system.observe(t);
-          record(prepared, standing, t, state, slope, system, recorder, largest);
+          record(prepared, standing, t, state, slope, system, looked_at, recorder, largest);
           interrupted = at_end && ++ends % kEndsBetweenLooks == 0 && options.progress &&
                         !options.progress({t, duration, recorder.position_error_max()});
           return !interrupted;
@@ -300,7 +302,7 @@ class Perturbation final : public SceneRung {
   }
 
   void record(const PreparedScene& prepared, const StandingDisplacement& standing, double t, const VecX& y,
-              const VecX& slope, const PerturbationSystem& system, MotionRecorder& recorder,
+              const VecX& slope, const PerturbationSystem& system, bool looked_at, MotionRecorder& recorder,
               LargestDeviations& largest) const {
     const Eigen::Index n = system.layout().n;
     const DisplacedBodies displaced(prepared, standing, t, y.head(n));
@@ -308,7 +310,7 @@ class Perturbation final : public SceneRung {
     BodyMotion body = displaced.moving(mechanism().boresight_body(), y.segment(n, n), slope.segment(n, n), a);
     const PoseError& error = recorder.accept(t, body, a);
     largest.add(t, std::max(error.position / mechanism().characteristic_length(), error.orientation), y.head(n),
-                y.segment(n, n), contact_loads(prepared.scene().offsets(), system));
+                y.segment(n, n), looked_at ? contact_loads(prepared.scene().offsets(), system) : VecX());
     if (!recorder.sampling()) return;
     for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
       body = displaced.moving(recorder.bodies_wanted()[k], y.segment(n, n), slope.segment(n, n), a);

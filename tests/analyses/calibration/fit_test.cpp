@@ -121,6 +121,33 @@ TEST(ProfileLikelihood, OfASmoothLossIsTheIntervalByCurvatureAndEndsAtABound) {
       << "a place was tried twice";
 }
 
+// What is as well known after the data as it was assumed to be before is not told by them, however small its error.
+TEST(Verdict, SaysOfWhatOnlyAPriorKnowsThatTheDataDoNotTellIt) {
+  const Bench bench({2.0}, 0.03, false);
+  CalibrationProblem problem = bench.problem({}, kRadial);
+  FittedParameter& parameter = problem.parameters[0];
+  parameter.has_prior = true;
+  parameter.prior = 0.2 * parameter.start;
+  Inference inference;
+  inference.parameters.resize(1);
+  inference.correlation = MatX::Identity(1, 1);
+  inference.rank = 1;
+  ParameterEstimate& e = inference.parameters[0];
+  e.value = parameter.start;
+  for (const double left : {0.98, 0.5}) {
+    e.standard_error = left * parameter.prior;
+    assess_identifiability(parameter, e);
+    EXPECT_TRUE(e.identifiable) << e.reason;
+    EXPECT_EQ(e.by_prior, left > 0.9) << left;
+    EXPECT_THAT(verdict(problem, inference),
+                testing::ElementsAre(testing::HasSubstr(left > 0.9 ? "is not told by these data" : "All parameters")));
+  }
+  parameter.has_prior = false;
+  e.standard_error = 0.2 * e.value;
+  assess_identifiability(parameter, e);
+  EXPECT_FALSE(e.by_prior);
+}
+
 TEST(Verdict, NamesContactsThatBeganWhileBarelyMoving) {
   CalibrationProblem problem;
   problem.parameters.resize(1);
