@@ -1,15 +1,16 @@
 #include "boresight_analyses/statistics/independent_samples.hpp"
 
-#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
 #include "boresight_analyses/statistics/binomial.hpp"
 #include "boresight_analyses/statistics/bonett.hpp"
+#include "boresight_analyses/statistics/hall.hpp"
 
 namespace boresight {
 namespace {
@@ -34,23 +35,46 @@ IndependentSamples::IndependentSamples(std::vector<double> values, std::int64_t 
 
 IndependentInterval IndependentSamples::mean(double confidence) const {
   need(valued(), 2, "the interval of a mean");
-  const double n = double(valued()), mean = gsl_stats_mean(sorted_.data(), 1, sorted_.size());
-  const double sd = gsl_stats_sd_m(sorted_.data(), 1, sorted_.size(), mean);
-  const double half = gsl_cdf_tdist_Qinv(0.5 * (1.0 - confidence), n - 1.0) * sd / std::sqrt(n);
-  return {mean, mean - half, mean + half, confidence, confidence, false, "Student's t over independent samples"};
+  const MeanInterval m = skewed_mean_interval(sorted_, confidence);
+  return {m.mean,
+          m.low,
+          m.high,
+          confidence,
+          confidence,
+          false,
+          "Student's t over independent samples, Hall's for their skewness" + unseen()};
 }
 
 IndependentInterval IndependentSamples::sd(double confidence) const {
   need(valued(), 5, "the interval of a standard deviation");
   const double sd = gsl_stats_sd(sorted_.data(), 1, sorted_.size());
   const LogSdInterval log = bonett_interval(sorted_, confidence);
+  // Bonett's kurtosis is that of few values, which holds too little of a long tail. A variance is a mean too, of skewed values.
+  std::vector<double> squares;
+  const double mean = gsl_stats_mean(sorted_.data(), 1, sorted_.size());
+  for (const double v : sorted_) squares.push_back((v - mean) * (v - mean));
+  const MeanInterval variance = skewed_mean_interval(squares, confidence);
+  const double per_value = double(valued()) / (double(valued()) - 1.0);
+  double low = sd * std::exp(log.low), high = sd * std::exp(log.high);
+  if (variance.low > 0.0) low = std::min(low, std::sqrt(per_value * variance.low));
+  high = std::max(high, std::sqrt(per_value * variance.high));
   return {sd,
-          sd * std::exp(log.low),
-          sd * std::exp(log.high),
+          low,
+          high,
           confidence,
           confidence,
           false,
-          "Bonett's interval over independent samples"};
+          "Bonett's interval over independent samples, Hall's for their skewness" + unseen()};
+}
+
+// Samples that are all alike have intervals of no width, which say nothing of what they do not hold.
+std::string IndependentSamples::unseen() const {
+  constexpr double kRuleOfThree = 3.0;  // -ln 0.05
+  if (sorted_.front() < sorted_.back() || double(valued()) <= kRuleOfThree) return "";
+  char text[100];
+  std::snprintf(text, sizeof text, "; all are alike: up to %.2g %% of other ones would go unseen",
+                100.0 * kRuleOfThree / double(valued()));
+  return text;
 }
 
 IndependentInterval IndependentSamples::quantile(double p, double confidence) const {

@@ -25,9 +25,10 @@ class IndependentSamples {
   std::int64_t count() const { return valued() + failed_; }
   const std::vector<double>& sorted() const { return sorted_; }
 
-  // Student's t; exact for normal values, by the central limit for others. Needs two values.
+  // Student's t, exact for normal values, or Hall's for skewed ones (hall.hpp): the wider on either side. By the central limit: values so rare
+  // that the samples hold none are not allowed for. Needs two values.
   IndependentInterval mean(double confidence) const;
-  // Bonett (2006), Computational Statistics & Data Analysis 50: allows for the kurtosis. Needs five values.
+  // Bonett (2006), Computational Statistics & Data Analysis 50: allows for the kurtosis; or Hall's of the squares. Needs five values.
   IndependentInterval sd(double confidence) const;
   // Value: Hyndman and Fan's definition 7 over the valued samples. Interval: order statistics, coverage exact.
   IndependentInterval quantile(double p, double confidence) const;
@@ -35,6 +36,8 @@ class IndependentSamples {
   IndependentInterval probability_below(double limit, double confidence) const;
 
  private:
+  std::string unseen() const;
+
   std::vector<double> sorted_;
   std::int64_t failed_;
 };

@@ -7,6 +7,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
+#include "boresight/rungs/pressed_through.hpp"
 #include "boresight/stepping/measured_error.hpp"
 #include "boresight_analyses/study/geometric_sample_model.hpp"
 #include "boresight_analyses/study/measurement.hpp"
@@ -105,6 +106,11 @@ void LaneSampleModel::take(const LaneOutcome& found, const Parameters& parameter
         std::string(found.status == LaneStatus::step_too_small ? "the error estimate asked for a vanishing step"
                                                                : "too many steps") +
         " at t = " + std::to_string(found.t) + " s";
+    return;
+  }
+  if (const auto through = pressed_through(parameters, found.max_penetration)) {
+    outcome.status = Outcome::Status::failed;
+    outcome.message = *through;
     return;
   }
   outcome.value = index_.statistic == "max"   ? found.max

@@ -9,6 +9,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/rungs/pressed_through.hpp"
 #include "boresight/stepping/unstable_step.hpp"
 
 namespace boresight {
@@ -101,10 +102,12 @@ void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outco
   options.model_look = ModelLook::shares;
   options.progress = [&stop](const RunProgress&) { return !stop.load(std::memory_order_relaxed); };
   try {
-    const RunResult result = run(rung, parameters_of_(sample.values), options, outcome.message);
+    const Parameters parameters = parameters_of_(sample.values);
+    const RunResult result = run(rung, parameters, options, outcome.message);
     outcome.cpu_seconds = result.cost.cpu_seconds;
     outcome.evaluations = static_cast<double>(result.cost.evaluations - result.cost.shared_evaluations);
     if (result.interrupted) return;
+    if (const auto through = pressed_through(*mechanism_, parameters, result)) throw ComputationError(*through);
     outcome.value = index_.of(result.index);
     outcome.motion = measures_of(result);
     if (kept_.spacing > 0.0) outcome.history = kept_.of(result);

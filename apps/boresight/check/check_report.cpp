@@ -13,6 +13,7 @@
 #include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/play_mobility.hpp"
 #include "boresight/play/joint_play.hpp"
+#include "boresight/rungs/pressed_through.hpp"
 #include "boresight_analyses/study/overrun_play.hpp"
 #include "report_parts/report_parts.hpp"
 #include "results/summary.hpp"
@@ -158,6 +159,7 @@ void add_start_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckR
   }
   result.start = starting_journals(mechanism, mechanism.parameters(), ideal);
   if (!result.start.remark.empty()) result.notes.push_back(result.start.remark);
+  if (!result.start.undecided.empty()) result.notes.push_back(result.start.undecided);
   if (!result.start.warning.empty()) {
     result.notes.push_back(result.start.warning);
     return;
@@ -191,8 +193,7 @@ void add_contact_findings(const Mechanism& mechanism, CheckResult& result) {
     // A contact as deep as the journal is thick, or the pad is wide, is no contact: the journal would be through its sleeve.
     const JointPlay play(d, mechanism.description().joints[d.joint].type, p);
     const double depth = play.normal_law().depth_under(contact.largest_load);
-    // But one of them are zero.
-    const double radius = std::max({p.journal_radius, p.pad_radius, 0.5 * std::min(p.width, p.height)});
+    const double radius = insert_thickness(p);
     const PlayWords parts = play.words();
     if (!(depth < radius))
       result.findings.push_back(fmt::format(

@@ -5,11 +5,12 @@
 
 #include "boresight/contact/law_range.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/pressed_through.hpp"
 #include "boresight_analyses/study/index_choice.hpp"
 
 namespace boresight::app {
 
-void refuse_infinite(const RunResult& result) {
+void refuse_absurd(const Mechanism& mechanism, const Parameters& parameters, const RunResult& result) {
   const auto check = [](double value, const std::string& what) {
     if (!std::isfinite(value))
       throw ComputationError(
@@ -22,6 +23,7 @@ void refuse_infinite(const RunResult& result) {
     check(c.max_force, "the contact force of " + c.joint);
     check(c.max_load, "the load on " + c.joint);
   }
+  if (const auto through = pressed_through(mechanism, parameters, result)) throw ComputationError(*through);
 }
 
 void add_range_warnings(const Mechanism& mechanism, const Parameters& parameters, RunResult& result) {

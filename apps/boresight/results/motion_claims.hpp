@@ -6,8 +6,9 @@
 
 namespace boresight::app {
 
-// Throws ComputationError where an index or a load left what a double holds: such numbers are no results.
-void refuse_infinite(const RunResult& result);
+// Throws ComputationError where an index or a load left what a double holds, or a contact is as deep as its insert is thick
+// (rungs/pressed_through.hpp): such numbers are no results. parameters: of that run.
+void refuse_absurd(const Mechanism& mechanism, const Parameters& parameters, const RunResult& result);
 
 // A warning of each contact that went beyond what its law holds for. parameters: of that run.
 void add_range_warnings(const Mechanism& mechanism, const Parameters& parameters, RunResult& result);

@@ -15,6 +15,7 @@ std::vector<std::string> start_warnings(const Mechanism& mechanism, const std::s
     if (const std::string doubt = doubt_of(ideal); !doubt.empty()) warnings.push_back(doubt);
     const StartingJournals start = starting_journals(mechanism, mechanism.parameters(), ideal);
     if (!start.remark.empty()) warnings.push_back(start.remark);
+    if (!start.undecided.empty() && rung != "envelope") warnings.push_back(start.undecided);
     if (!start.warning.empty() && rung != "envelope" && rung != "quasistatic") warnings.push_back(start.warning);
   } catch (const ComputationError&) {  // the samples say it themselves
   } catch (const Interrupted&) {       // what the study has is written first

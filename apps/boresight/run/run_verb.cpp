@@ -200,7 +200,7 @@ class RunVerb : public Verb {
 
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
     RunResult result = rung->run(mechanism->parameters(), options);
-    refuse_infinite(result);
+    refuse_absurd(*mechanism, mechanism->parameters(), result);
     add_range_warnings(*mechanism, mechanism->parameters(), result);
     std::vector<Compared> others;
     std::optional<AxesComparison> axes;

@@ -119,7 +119,7 @@ Run run(const std::shared_ptr<Mechanism>& mechanism, const std::optional<NamedPa
   };
   auto result = std::make_shared<RunResult>();
   task.run([&] { *result = make_rung(rung == "auto" ? rung_names().back() : rung, mechanism)->run(values, options); });
-  app::refuse_infinite(*result);
+  app::refuse_absurd(*mechanism, values, *result);
   app::add_range_warnings(*mechanism, values, *result);
   if (every > 1 && !result->time.empty() && (result->time.size() - 1) % every != 0) {
     thin(*result, every);

@@ -227,6 +227,7 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
   RestingBodies resting;
   if (scene.layout.n == 0) return resting;
   resting.remark = tipping_sentence(mechanism, scene.layout);
+  if (resting.remark.empty()) resting.remark = undecided_sentence(mechanism, scene.layout);
   // Whatever formulation follows the motion, it starts from the same place. This one closes joints by the bodies' least motion, whatever
   // order they are listed in; a tree of them closes its loops where it happens to be cut.
   const std::unique_ptr<Formulation> formulation = make_paper_formulation(mechanism, parameters, &ideal, {});

@@ -19,7 +19,7 @@ struct RestingBodies {
       exact;    // on the mechanism's own geometry, moving as motions start; empty: no play can move, or none was found
   VecX linear;  // T z [m, rad], 6 of each body: where the linear balance has displaced them; empty: it has none
   std::string refusal;  // why not, where none was found
-  std::string remark;   // that loads tip them over (tipping.hpp); else empty
+  std::string remark;   // that loads tip them over, or that nothing holds some of them (tipping.hpp); else empty
 };
 // Throws ComputationError at a singular pose.
 RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal);

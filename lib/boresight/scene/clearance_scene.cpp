@@ -54,23 +54,25 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const Parameters& par
       layout_(offsets_, coordinates_,
               coordinates_.leftover() > 0 || moving() || !mechanism.description().springs.empty()),
       groups_(riding_masses(mechanism, parameters)) {
-  std::vector<int> tipped;
+  Tipping tipping;
   try {
-    tipped = tipped_by_all_loads(ideal, parameters);
+    tipping = tipped_by_all_loads(ideal, parameters);
   } catch (const ComputationError&) {
     // Where a pose near this one cannot be closed nothing is known of it; whoever needs that pose says so.
   }
-  if (tipped.empty()) return;
-  layout_ = SceneLayout(offsets_, coordinates_, true);
-  layout_.tips = true;
-  layout_.tipped = std::move(tipped);
+  if (!tipping.clearances.empty()) {
+    layout_ = SceneLayout(offsets_, coordinates_, true);
+    layout_.tips = true;
+    layout_.tipped = std::move(tipping.clearances);
+  }
+  layout_.undecided = std::move(tipping.undecided);
 }
 
 bool ClearanceScene::would_tip(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters) {
   return ClearanceScene(mechanism, parameters, ideal).tips();
 }
 
-std::vector<int> ClearanceScene::tipped_by_all_loads(const IdealMotion& ideal, const Parameters& parameters) {
+Tipping ClearanceScene::tipped_by_all_loads(const IdealMotion& ideal, const Parameters& parameters) {
   // Where a load pushes on every coordinate, no tilt or shift within the play makes one that counts beside it.
   constexpr double kPushes = 1e-3;
   const int n = layout_.n;
@@ -103,13 +105,13 @@ std::vector<int> ClearanceScene::tipped_by_all_loads(const IdealMotion& ideal, c
     if (moving()) K -= moving_stiffness(parameters, at);
     return K;
   };
-  const Tipping tipping =
+  Tipping tipping =
       tipped_by_loads(RestingBalance(layout_, row.data(), joint_plays(mechanism_.description(), parameters)), layout_,
                       stiffness_at(knot), acting);
   // What the motion's own turning makes of a displacement is over when it has turned.
   constexpr double kBesideTurning = 2.0;
   if (!tipping.clearances.empty() && !(tipping.fall > kBesideTurning * fastest * tipping.way.dot(M * tipping.way)))
-    return {};
+    tipping.clearances.clear();
   // What loads push along the way later in the motion, or hold against it, they decide.
   constexpr double kLooks[] = {0.11, 0.29, 0.43, 0.61, 0.79, 0.97};
   for (const double share : kLooks) {
@@ -117,9 +119,9 @@ std::vector<int> ClearanceScene::tipped_by_all_loads(const IdealMotion& ideal, c
     const Knot later = knot_at(share * ideal.duration(), ideal, exact, parameters);
     assemble(parameters, later, M, C, r);
     if (std::abs(tipping.way.dot(r)) > tipping.fall || !(tipping.way.dot(stiffness_at(later) * tipping.way) < 0.0))
-      return {};
+      tipping.clearances.clear();
   }
-  return tipping.clearances;
+  return tipping;
 }
 
 SceneStart ClearanceScene::start_of(const Parameters& parameters, const Knot& first) const {

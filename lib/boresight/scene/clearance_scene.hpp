@@ -37,6 +37,7 @@
 namespace boresight {
 
 class ExactStates;
+struct Tipping;
 
 // The scene as motions start: its numbers at t = 0 (a row of SceneTables::dynamics), and zdot per z there (start_rates.hpp).
 struct SceneStart {
@@ -142,8 +143,8 @@ class ClearanceScene {
                   SceneForm form = SceneForm::accelerations) const;
   double slowest_rate(const std::vector<double>& rows, const Parameters& parameters) const;
   double interpolation_error(const std::vector<double>& rows, const Parameters& parameters) const;
-  // Clearances whose journals the loads of the motion tip over.
-  std::vector<int> tipped_by_all_loads(const IdealMotion& ideal, const Parameters& parameters);
+  // Whose journals the loads of the motion tip over, and which nothing holds.
+  Tipping tipped_by_all_loads(const IdealMotion& ideal, const Parameters& parameters);
   // A K by differences, of which all forces have their part.
   bool stiff_by_differences() const { return coordinates_.leftover() > 0 || layout_.tips; }
   // Whether T'' has a part.

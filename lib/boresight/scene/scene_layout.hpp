@@ -95,6 +95,7 @@ struct SceneLayout {
   bool stiff = false;       // whether forces that grow with the coordinates themselves are kept
   bool tips = false;        // whether these take journals farther from where no load pushes them: tipping.hpp
   std::vector<int> tipped;  // clearances whose journals these are
+  std::vector<int> undecided;  // clearances whose journals nothing holds along part of their play as motions start
   int A = 0, Ar = 0, AC = 0, AK = 0, joints_at = 0, width = 0;
   std::vector<Joint> joints;
 };

@@ -235,7 +235,12 @@ RunResult SceneRung::run(const Parameters& parameters, const RunOptions& options
   }
   result.warnings.insert(result.warnings.begin(), prepared->held().begin(), prepared->held().end());
   if (const std::string doubt = doubt_of(prepared->ideal()); !doubt.empty()) result.warnings.push_back(doubt);
-  if (prepared->scene().tips()) result.warnings.push_back(tipping_sentence(*mechanism_, prepared->scene().layout()));
+  const SceneLayout& layout = prepared->scene().layout();
+  if (prepared->scene().tips())
+    result.warnings.push_back(tipping_sentence(*mechanism_, layout));
+  else if (starts_somewhere())
+    if (const std::string undecided = undecided_sentence(*mechanism_, layout); !undecided.empty())
+      result.warnings.push_back(undecided);
   result.rung = name();
   result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
   result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();

@@ -106,6 +106,8 @@ class SceneRung : public Rung {
   explicit SceneRung(std::shared_ptr<const Mechanism> mechanism) : mechanism_(std::move(mechanism)) {}
   virtual RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing,
                            const Parameters& parameters, const RunOptions& options) const = 0;
+  // Whether what follows hangs on where the journals start.
+  virtual bool starts_somewhere() const { return true; }
   const Mechanism& mechanism() const { return *mechanism_; }
 
  private:

@@ -21,6 +21,7 @@ StartingJournals starting_journals(const Mechanism& mechanism, const Parameters&
   try {
     const ClearanceScene::Start scene = ClearanceScene::at_start(*built.mechanism, *built.motion, parameters);
     start.remark = tipping_sentence(mechanism, scene.layout);
+    if (start.remark.empty()) start.undecided = undecided_sentence(mechanism, scene.layout);
     const VecX state =
         start_coordinates(mechanism, scene.layout, scene.numbers, joint_plays(m, parameters), start.warning);
     for (std::size_t c = 0; c < start.journals.size(); ++c) {

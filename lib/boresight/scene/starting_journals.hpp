@@ -17,6 +17,7 @@ struct StartingJournals {
   std::vector<Journal> journals;  // per clearance
   std::string warning;            // where journals were to rest and do not
   std::string remark;             // that loads tip them over (tipping.hpp)
+  std::string undecided;          // that nothing holds some of them along part of their play (tipping.hpp)
 };
 
 // Of the mechanism as these parameters' standing errors build it. ideal: the motion of the drawn one, which its drives are told to make.

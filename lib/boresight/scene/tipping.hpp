@@ -6,6 +6,9 @@
 //
 // With journals where the linear balance has them, N the directions along which contacts hold nothing and K the loads' own (geometric) stiffness,
 // a load on z of -K z, that is so where N^T K N has a negative eigenvalue.
+//
+// Along ways of N of which K makes nothing either, whichever sign, nothing decides where a journal lies: the ring of an azimuth bearing whose
+// loads all point down its axis. It starts in the middle then, as well as anywhere.
 #pragma once
 
 #include <string>
@@ -19,6 +22,7 @@ struct Tipping {
   std::vector<int> clearances;  // whose journals tip over; none where all stay
   VecX way;                     // of the coordinates, a clearance long: along which the energy falls most
   double fall = 0.0;            // -way^T K way [N m]: a load that pushes more along the way decides instead
+  std::vector<int> undecided;   // clearances that take part where neither contact nor load holds anything
 };
 // balance: without the loads' stiffness. acting: what weighs and resists on each
 // coordinate without regard to sign [N, N m]; what rounding leaves of K is small against it.
@@ -26,5 +30,7 @@ Tipping tipped_by_loads(const RestingBalance& balance, const SceneLayout& layout
 
 // The same for people; empty where none is.
 std::string tipping_sentence(const Mechanism& mechanism, const SceneLayout& layout);
+// Of where journals start that nothing holds; empty where something does, and where the file has journals start in the middle.
+std::string undecided_sentence(const Mechanism& mechanism, const SceneLayout& layout);
 
 }  // namespace boresight

@@ -28,6 +28,7 @@ class Envelope final : public SceneRung {
   explicit Envelope(std::shared_ptr<const Mechanism> mechanism) : SceneRung(std::move(mechanism)) {}
 
   std::string name() const override { return "envelope"; }
+  bool starts_somewhere() const override { return false; }
   std::string leaves_out() const override {
     return "Everything but geometry and static deflection: a bound, each index at its own worst offset at every "
            "instant "

@@ -6,6 +6,7 @@
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight_analyses/study/failures.hpp"
+#include "boresight_analyses/study/lane_sample_model.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 
 namespace boresight {
@@ -45,6 +46,30 @@ TEST_P(WithIntegrator, EachSampleTakesTheStepsOfItsOwnRun) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Integrators, WithIntegrator, testing::Values("dopri5", "rosenbrock"));
+
+// 10,000 t on a journal of 10 mm: no rung has an answer, and a study of them fails sample by sample, on lanes and off.
+TEST(SampleModel, FailsWhereAContactIsDeeperThanItsJournalIsThick) {
+  const auto mechanism = std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml", {{"motion.duration", "20 ms"}}));
+  const auto parameters_of = [&](std::span<const double> values) {
+    Parameters p = mechanism->parameters();
+    p.payload_mass = values[0];
+    return p;
+  };
+  const std::atomic<bool> stop{false};
+  for (const char* rung : {"quasistatic", "perturbation"}) {
+    const auto model = sample_model(rung, mechanism, parameters_of, {"position_error", "max"}, {}, false);
+    for (const double mass : {10.0, 1e7}) {
+      const std::vector<double> values = {mass};
+      const Sample sample{0, values};
+      Outcome outcome;
+      model->evaluate({&sample, 1}, {&outcome, 1}, stop);
+      EXPECT_EQ(outcome.status, mass < 1e3 ? Outcome::Status::done : Outcome::Status::failed) << rung << mass;
+      EXPECT_EQ(outcome.message.find("no contact law holds there") != std::string::npos, mass > 1e3)
+          << rung << outcome.message;
+    }
+  }
+}
 
 // What rosenbrock took where it took over is no step for rk4: each sample then goes the way of its own run.
 TEST(CommonStep, IsNoneWhereRosenbrockTakesOver) {

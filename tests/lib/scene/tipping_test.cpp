@@ -291,6 +291,38 @@ TEST(Tipping, IsSaidWithTheJointsName) {
   }
 }
 
+std::vector<int> undecided(const Mechanism& mechanism) {
+  return ClearanceScene::at_start(mechanism, ideal_motion(mechanism, mechanism.parameters()), mechanism.parameters())
+      .layout.undecided;
+}
+
+bool says(const std::vector<std::string>& warnings, const char* what, const char* whose) {
+  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& one) {
+    return one.find(what) != std::string::npos && one.find(whose) != std::string::npos;
+  });
+}
+
+// A hanging column is pushed upright, but to no side of its guide: whatever is as heavy to the left as to the right lies anywhere in between.
+TEST(Tipping, SaysWhichJournalsNothingHoldsSomewhereInTheirPlay) {
+  const MechanismPtr hanging = scene(replaced(kColumn, "-9.81 m/s^2", "9.81 m/s^2"));
+  EXPECT_EQ(undecided(*hanging), std::vector<int>{0});
+  for (const char* rung : {"quasistatic", "perturbation", "multibody"})
+    EXPECT_TRUE(says(make_rung(rung, hanging)->run(hanging->parameters(), {}).warnings, "nothing pushes", "\"sl\"")) << rung;
+  EXPECT_FALSE(says(make_rung("envelope", hanging)->run(hanging->parameters(), {}).warnings, "nothing pushes", "\"sl\""));
+  const MechanismPtr centred = scene("journals = \"centred\"\n" + replaced(kColumn, "-9.81 m/s^2", "9.81 m/s^2"));
+  for (const char* rung : {"quasistatic", "perturbation", "multibody"})
+    EXPECT_FALSE(says(make_rung(rung, centred)->run(centred->parameters(), {}).warnings, "nothing pushes", "\"sl\"")) << rung;
+}
+
+TEST(Tipping, NothingIsUndecidedWhereLoadsPushEveryJournal) {
+  for (const char* example : {"3-rrcpr/3-rrcpr.toml", "3-rrcpr/twelve-joints.toml", "four-bar/four-bar.toml",
+                              "crank-slider/crank-slider.toml", "hexapod/play.toml"}) {
+    const MechanismPtr mechanism =
+        std::make_shared<const Mechanism>(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/" + example, {}));
+    EXPECT_TRUE(undecided(*mechanism).empty()) << example;
+  }
+}
+
 // The rod's force F makes the energy F (h psi^2 / 2 - y psi) of the slider's yaw and its shift to a side, h the rod along the guide, whose
 // least within |y| + psi L / 2 <= w lies at psi = w / (h + L); drawn by F instead, the slider turns all the way, 2 w / L.
 TEST(Tipping, ASliderTurnsUnderItsRod) {
