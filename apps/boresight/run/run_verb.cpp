@@ -25,6 +25,7 @@
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
+#include "run/accuracy_asked.hpp"
 #include "run/error_lines.hpp"
 #include "run/nonlinear_section.hpp"
 #include "run/parts_section.hpp"
@@ -47,7 +48,8 @@ const std::vector<std::string> kReadByOthers = {"step", "formulation", "stabilis
 void print(const Command& command, const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
            const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
            const std::optional<Predictability>& predictability, const MeasuredError& measured,
-           const std::optional<RunParts>& parts, const IndexChoice& wanted, const OutputDirectory& out) {
+           const std::optional<RunParts>& parts, const IndexChoice& wanted,
+           const std::optional<AccuracyAsked>& accuracy, const OutputDirectory& out) {
   tell("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
        result.integrator, result.interrupted ? " (interrupted)" : "");
   if (choice.pilot) tell("  rung: {}\n", choice.why);
@@ -64,6 +66,7 @@ void print(const Command& command, const Mechanism& mechanism, const RungChoice&
       !result.interrupted && said.warning.empty() && !said.sentence.empty())
     tell("  {}\n", said.sentence);
   if (!result.interrupted) tell("  {}\n", step_error_sentence(measured, result.index, wanted, size));
+  if (accuracy) tell("  {}\n", accuracy_sentence(*accuracy, wanted));
   if (predictability && predictability->parted) tell("  {}\n", predictability_sentence(*predictability));
   for (const Compared& other : others) {
     if (!other.refusal.empty())
@@ -251,6 +254,9 @@ class RunVerb : public Verb {
                    step_error_sentence(measured, result.index, index, mechanism->characteristic_length()));
     for (const std::string& warning : material_warnings(assumed_by(command, *mechanism)))
       document.warnings.push_back(warning);
+    const auto accuracy =
+        cut_short ? std::optional<AccuracyAsked>{} : accuracy_asked(command, choice, result, index);
+    if (accuracy) summary["accuracy"] = accuracy_json(*accuracy);
     if (parts) {
       summary["parts"] = parts_json(*parts);
       summary["files"].push_back("parts.csv");
@@ -271,8 +277,9 @@ class RunVerb : public Verb {
     out.publish();
     progress.clear();
     if (!command.quiet)
-      print(command, *mechanism, choice, result, others, axes, predictability, measured, parts, index, out);
-    return cut_short ? kInterrupted : status_with_accuracy(choice, kDone);
+      print(command, *mechanism, choice, result, others, axes, predictability, measured, parts, index, accuracy, out);
+    if (cut_short) return kInterrupted;
+    return accuracy && !accuracy->met() ? kAnswerIsNo : status_with_accuracy(choice, kDone);
   }
 
  private:

@@ -86,8 +86,11 @@ DeviationCoordinates::DeviationCoordinates(const Mechanism& mechanism, const Ide
 }
 
 void DeviationCoordinates::throw_singular(double t) const {
+  // A ball joint's turns have coordinates that end a part of a turn from where it is drawn, though nothing is singular there.
   throw ComputationError("the perturbation of the ideal motion does not exist at t = " + std::to_string(t) +
-                         " s: the pose is singular or near it; use the multibody rung");
+                         (leftover_ > 0 ? " s: the pose is singular or near it, or the coordinates of a freedom that "
+                                          "nothing drives end there; use the multibody rung"
+                                        : " s: the pose is singular or near it; use the multibody rung"));
 }
 
 void DeviationCoordinates::gain(double t, MatX& T) {

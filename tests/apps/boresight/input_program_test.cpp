@@ -187,6 +187,26 @@ TEST_F(InputProgram, CheckFindsAJournalThatWouldBePressedThroughItsSleeve) {
   EXPECT_FALSE(says_infinity(text("out/conditioning.csv")));
 }
 
+TEST_F(InputProgram, ARunOfAJournalThatIsPressedThroughItsSleeveIsRefused) {
+  const Ended ended = call({"run", four_bar_, "--set", "gravity.z=-1e7 m/s^2", "--set", "clearance.D.contact.young=1 MPa",
+                            "--rung", "quasistatic", "--out", "out"});
+  EXPECT_EQ(ended.status, 1) << ended.err;
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("no contact law holds there"));
+}
+
+TEST_F(InputProgram, AccuracyIsHeldAgainstWhatARungAskedForByNameStatesOfItself) {
+  const auto run = [&](const char* accuracy) {
+    return call({"run", four_bar_, "--set", "motion.duration=0.1 s", "--rung", "quasistatic", "--accuracy", accuracy, "--out",
+                 std::string("out-") + accuracy});
+  };
+  const Ended loose = run("100 %"), tight = run("0.0001 %");
+  EXPECT_EQ(loose.status, 0) << loose.err;
+  EXPECT_THAT(loose.out, HasSubstr("position error, maximum: within 100 %; the run states"));
+  EXPECT_EQ(tight.status, 1) << tight.err;
+  EXPECT_THAT(tight.out, HasSubstr("position error, maximum: not shown to be within 0.0001 %; the run states"));
+}
+
 TEST_F(InputProgram, CheckOfAMotionThatMemoryCannotHoldSaysSo) {
   for (const char* duration : {"1e4 s", "1e6 s"}) {
     const Ended ended = call({"check", mechanism_, "--set", std::string("motion.duration=") + duration, "--out",
