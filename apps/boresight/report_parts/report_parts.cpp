@@ -198,10 +198,14 @@ std::string definitions(const std::vector<Overlay>& overlays) {
   return text;
 }
 
+constexpr const char* kStated =
+    " ±: what steps do and what the rung leaves out, of each figure by itself, where that was measured.";
+
 report::Table index_table(const std::vector<Overlay>& overlays) {
   report::Table table{
       .title = "Indices",
-      .caption = "Statistics over time, from every accepted step. Angles also in arcseconds." + definitions(overlays),
+      .caption = "Statistics over time, from every accepted step. Angles also in arcseconds." +
+                 (!overlays.empty() && overlays.front().stated ? std::string(kStated) : "") + definitions(overlays),
       .columns = {{"Motion"},
                   {"Error"},
                   {"Maximum"},
@@ -216,9 +220,13 @@ report::Table index_table(const std::vector<Overlay>& overlays) {
     for (const QuantityName& quantity : quantity_names()) {
       if (quantity.kind == PointingQuantity::line_of_sight_error && !overlay.result->index.has_line_of_sight) continue;
       const Statistics& s = overlay.result->index.*quantity.statistics;
-      const auto text = [&](double value) { return readable(value, quantity.si_unit); };
-      std::vector<nlohmann::json> row = {overlay.name, quantity.title, text(s.max),   s.time_of_max,
-                                         text(s.rms),  text(s.mean),   text(s.p9973), nullptr};
+      const auto text = [&](double value, const char* statistic) {
+        const std::string uncertainty =
+            overlay.stated && *statistic != '\0' ? overlay.stated({quantity.name, statistic}) : "";
+        return readable(value, quantity.si_unit) + (uncertainty.empty() ? "" : " " + uncertainty);
+      };
+      std::vector<nlohmann::json> row = {overlay.name,        quantity.title,        text(s.max, "max"), s.time_of_max,
+                                         text(s.rms, "rms"), text(s.mean, "mean"), text(s.p9973, ""),  nullptr};
       if (std::string(quantity.si_unit) == "rad") row.back() = readable_arcsec(s.max);
       if (one) row.erase(row.begin());
       table.rows.push_back(std::move(row));

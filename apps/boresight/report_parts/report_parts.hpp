@@ -2,11 +2,13 @@
 // contacts, provenance.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight/rungs/run_result.hpp"
+#include "boresight_analyses/study/index_choice.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 #include "command_line/command.hpp"
 #include "report/document.hpp"
@@ -18,6 +20,7 @@ namespace boresight::app {
 struct Overlay {
   std::string name;  // "0.1 mm"
   const RunResult* result = nullptr;
+  std::function<std::string(const IndexChoice&)> stated = {};  // "± 2.3 %" of an index, or nothing; none: nobody measured
 };
 
 // Curves keep about this many points each; spikes are never lost (report::thinned).

@@ -307,6 +307,10 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
   document.provenance = provenance_of(command, mechanism, rung);
 
   std::vector<Overlay> overlay = {{others.empty() ? "with clearance" : result.rung, &result}};
+  if (measured.measured)
+    overlay.front().stated = [&](const IndexChoice& of) {
+      return stated_error_text(measured, result, of, mechanism.characteristic_length());
+    };
   for (const Compared& other : others)
     if (other.refusal.empty()) overlay.push_back({other.rung, &other.result});
   report::Section errors{.id = "errors", .title = "Pointing error", .items = {index_table(overlay)}};

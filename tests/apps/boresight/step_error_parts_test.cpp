@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "report_parts/report_parts.hpp"
 #include "run/error_lines.hpp"
 
 namespace boresight::app {
@@ -135,6 +136,20 @@ TEST(ModelErrorSaid, IsNothingWhereNothingIsLeftOutOrNothingDeviates) {
   RunResult exact = left_out(0.5, indices(1e-4, 0.0));  // of a rung that leaves nothing out, and so states nothing
   exact.error.basis.clear();
   EXPECT_THAT(model_error_said(exact, kMaximum, 1.0).sentence, IsEmpty());
+}
+
+TEST(IndexTable, HasEachFiguresOwnError) {
+  const PointingIndices index = indices(1e-4, 1e-3);
+  const RunResult result = left_out(0.02, index);
+  const MeasuredError measured = off_by(1e-6, 0.0);
+  std::vector<Overlay> overlays = {{"with clearance", &result}};
+  const auto position = [&] { return index_table(overlays).rows.at(0).at(1).get<std::string>(); };
+  EXPECT_THAT(position(), Not(HasSubstr("±")));
+  EXPECT_THAT(index_table(overlays).caption, Not(HasSubstr("±")));
+  overlays.front().stated = [&](const IndexChoice& of) { return stated_error_text(measured, result, of, 1.0); };
+  EXPECT_THAT(position(), HasSubstr(stated_error_text(measured, result, kMaximum, 1.0)));
+  EXPECT_THAT(position(), HasSubstr("± 3 %"));
+  EXPECT_THAT(index_table(overlays).caption, HasSubstr("±"));
 }
 
 }  // namespace step_error_parts_test
