@@ -73,6 +73,9 @@ const KeyTable& calibrate_keys() {
           boolean("mounting_bias", p.mounting_bias).says("Whether a constant offset of every channel is fitted too."),
           boolean("drift", p.drift)
               .says("Whether a steady drift of every channel's offset is fitted too, from each run's start."),
+          boolean("offsets_per_run", p.offsets_per_run)
+              .says("Whether every run has offsets and drifts of its own, as where the rig was set up anew in "
+                    "between."),
           table("discrepancy", calibrate_discrepancy_keys)
               .sometimes("left out, that table's defaults hold")
               .says("How well what is not fitted is known; intervals are widened by what it may do to the answer."),

@@ -183,6 +183,19 @@ std::string also_fitted(const MechanismDescription& mechanism, const VariedPaths
   return "";
 }
 
+// What is held out of the fit has to be read with offsets that the fit knows.
+void refuse_runs_held_out(const CalibrationPlan& plan, const CalibrationProblem& problem) {
+  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+    const auto of_run = [&](const Window& w) { return w.run == static_cast<int>(r); };
+    if (std::any_of(problem.windows.begin(), problem.windows.end(), of_run) &&
+        std::none_of(problem.windows.begin(), problem.windows.end(),
+                     [&](const Window& w) { return of_run(w) && !w.held_out; }))
+      throw InputError(plan.hold_out_origin, "calibrate.hold_out", "all of " + problem.runs[r].name,
+                       "windows shorter than a run, as each run has offsets of its own (offsets_per_run), which "
+                       "readings of it that are fitted have to tell");
+  }
+}
+
 }  // namespace
 
 CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism) {
@@ -203,6 +216,9 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
   if (table.has("sensor_lag")) plan.sensor_lag = table.quantity("sensor_lag");
   plan.mounting_bias = table.boolean("mounting_bias");
   plan.drift = table.boolean("drift");
+  plan.offsets_per_run = table.boolean("offsets_per_run");
+  if (plan.offsets_per_run && !plan.mounting_bias && !plan.drift)
+    table.fail_found("offsets_per_run", "true", "mounting_bias or drift beside it, which say that there are offsets");
   Cursor discrepancy = table.table_or_empty("discrepancy");
   discrepancy.only(calibrate_discrepancy_keys());
   plan.discrepancy = {discrepancy.quantity("axial", plan.discrepancy.axial),
@@ -300,6 +316,7 @@ CalibrationProblem calibration_problem(
   problem.lag_prior = plan.sensor_lag;
   problem.fit_bias = plan.mounting_bias;
   problem.fit_drift = plan.drift;
+  problem.offsets_per_run = plan.offsets_per_run;
   allow_for(plan.discrepancy, problem);
   problem.prepare(plan.window, plan.from_rest);
   for (const auto& [channel, origin] : plan.noise_origin)
@@ -308,6 +325,7 @@ CalibrationProblem calibration_problem(
                        std::string("calibrate.noise.") + channel_names()[static_cast<std::size_t>(channel)].name,
                        "noise of a channel that no data have", "a channel that was measured");
   hold_out_windows(problem, plan.hold_out);
+  if (plan.offsets_per_run && plan.hold_out > 0.0) refuse_runs_held_out(plan, problem);
   if (plan.hold_out > 0.0 && problem.windows.size() < 2)
     throw InputError(plan.hold_out_origin, "calibrate.hold_out", "one window",
                      "two at least, so that one is left to fit: a second run, or a window shorter than the run");

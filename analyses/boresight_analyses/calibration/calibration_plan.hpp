@@ -75,7 +75,7 @@ struct CalibrationPlan {
   std::uint64_t seed = 1;
   double confidence = 0.95;
   double largest_time_offset = 0.0, sensor_lag = 0.0;  // 0: none is fitted [s]
-  bool mounting_bias = false, drift = false;
+  bool mounting_bias = false, drift = false, offsets_per_run = false;
   Discrepancy discrepancy;
   double hold_out = 0.0;
   Origin hold_out_origin;

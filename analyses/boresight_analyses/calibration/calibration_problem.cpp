@@ -111,8 +111,35 @@ void CalibrationProblem::prepare(double window_length, bool from_rest) {
       first = last + 1;
     }
   }
+  find_offsets();
   prepare_errors();
   for (std::size_t r = 0; r < runs.size(); ++r) choose_steps(static_cast<int>(r));
+}
+
+// Each channel's, or each run's of each channel that it has readings of.
+void CalibrationProblem::find_offsets() {
+  offsets.clear();
+  offset_index_.assign(runs.size() * channels.size(), -1);
+  const int count = static_cast<int>(channels.size());
+  const auto read = [&](int run, int channel) {
+    const int k = column(run, channel);
+    return k >= 0 && std::any_of(windows.begin(), windows.end(), [&](const Window& w) {
+             return w.run == run &&
+                    runs[run].data.value.col(k).segment(w.first, w.last - w.first + 1).array().isFinite().any();
+           });
+  };
+  if (!offsets_per_run)
+    for (int c = 0; c < count; ++c) offsets.push_back({-1, c});
+  for (int r = 0; r < static_cast<int>(runs.size()); ++r)
+    for (int c = 0; c < count; ++c) {
+      int& index = offset_index_[static_cast<std::size_t>(r * count + c)];
+      if (!offsets_per_run) {
+        index = c;
+      } else if (read(r, c)) {
+        index = static_cast<int>(offsets.size());
+        offsets.push_back({r, c});
+      }
+    }
 }
 
 void CalibrationProblem::choose_steps(int run) {
@@ -195,8 +222,9 @@ std::vector<std::string> CalibrationProblem::global_names() const {
   if (fit_time_offset) names.emplace_back("time_offset");
   if (fit_lag) names.emplace_back("lag");
   for (const auto& [fitted, what] : {std::pair{fit_bias, "bias."}, {fit_drift, "drift."}})
-    for (std::size_t c = 0; fitted && c < channels.size(); ++c)
-      names.push_back(std::string(what) + channel_names()[channels[c]].name);
+    for (std::size_t k = 0; fitted && k < offsets.size(); ++k)
+      names.push_back(what + (offsets[k].run < 0 ? std::string() : runs[offsets[k].run].name + ".") +
+                      channel_names()[channels[offsets[k].channel]].name);
   return names;
 }
 
@@ -204,7 +232,7 @@ std::string CalibrationProblem::global_unit(int g) const {
   if (g < parameter_count()) return parameters[g].si_unit;
   if (g < bias_column()) return "s";
   const bool drift = g >= drift_column();
-  const std::string unit = channel_names()[channels[g - (drift ? drift_column() : bias_column())]].si_unit;
+  const std::string unit = channel_names()[channels[offsets[g - (drift ? drift_column() : bias_column())].channel]].si_unit;
   return drift ? unit + "/s" : unit;
 }
 
@@ -260,8 +288,8 @@ Globals CalibrationProblem::start() const {
   Globals g;
   g.u.resize(parameter_count());
   for (int p = 0; p < parameter_count(); ++p) g.u[p] = parameters[p].coordinate(parameters[p].start);
-  if (fit_bias) g.bias = VecX::Zero(static_cast<Eigen::Index>(channels.size()));
-  if (fit_drift) g.drift = VecX::Zero(static_cast<Eigen::Index>(channels.size()));
+  if (fit_bias) g.bias = VecX::Zero(static_cast<Eigen::Index>(offsets.size()));
+  if (fit_drift) g.drift = VecX::Zero(static_cast<Eigen::Index>(offsets.size()));
   return g;
 }
 

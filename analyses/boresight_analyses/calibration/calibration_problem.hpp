@@ -84,11 +84,11 @@ struct Globals {
   VecX u;                    // parameters
   double time_offset = 0.0;  // model time less data time [s]
   double lag = 0.0;          // of the sensor [s]
-  VecX bias;                 // per channel of channels(), SI; empty: none
-  VecX drift;                // of the bias, per channel [SI/s], from each run's t = 0; empty: none
+  VecX bias;                 // per offset of CalibrationProblem::offsets, SI; empty: none
+  VecX drift;                // of the bias, likewise [SI/s], from each run's t = 0; empty: none
 
-  double offset_of(int channel, double t) const {
-    return (bias.size() > 0 ? bias[channel] : 0.0) + (drift.size() > 0 ? drift[channel] * t : 0.0);
+  double offset_at(int offset, double t) const {
+    return (bias.size() > 0 ? bias[offset] : 0.0) + (drift.size() > 0 ? drift[offset] * t : 0.0);
   }
 };
 
@@ -127,6 +127,12 @@ class CalibrationProblem {
   std::vector<int> channels;                 // among channel_names(), of all runs together
   VecX sigma;                                // noise per channel [SI]
   bool fit_time_offset = false, fit_lag = false, fit_bias = false, fit_drift = false;
+  bool offsets_per_run = false;  // whether each run has biases and drifts of its own
+  // Of each bias, and of each drift, in the order of their columns: whose it is. By prepare().
+  struct Offset {
+    int run, channel;  // run: -1 of all of them; channel: index into `channels`
+  };
+  std::vector<Offset> offsets;
   double largest_time_offset = 0.0;                  // [s]
   double time_offset_prior = 0.0, lag_prior = 2e-4;  // standard deviations about none [s]; 0: nothing is known before
   ResidualLoss loss;
@@ -156,8 +162,12 @@ class CalibrationProblem {
   int time_offset_column() const { return parameter_count(); }
   int lag_column() const { return time_offset_column() + (fit_time_offset ? 1 : 0); }
   int bias_column() const { return lag_column() + (fit_lag ? 1 : 0); }
-  int drift_column() const { return bias_column() + (fit_bias ? static_cast<int>(channels.size()) : 0); }
-  int global_count() const { return drift_column() + (fit_drift ? static_cast<int>(channels.size()) : 0); }
+  int drift_column() const { return bias_column() + (fit_bias ? static_cast<int>(offsets.size()) : 0); }
+  int global_count() const { return drift_column() + (fit_drift ? static_cast<int>(offsets.size()) : 0); }
+  // Which of `offsets` a run's channel has; -1 where it was not measured.
+  int offset_index(int run, int channel) const {
+    return offset_index_[static_cast<std::size_t>(run) * channels.size() + static_cast<std::size_t>(channel)];
+  }
   std::vector<std::string> global_names() const;
   std::string global_unit(int g) const;  // SI
   // What was known of each before: one over its variance.
@@ -202,6 +212,9 @@ class CalibrationProblem {
   VecX state_at(const Window& window, const Globals& globals, const VecX& state, double t) const;
 
  private:
+  void find_offsets();
+
+  std::vector<int> offset_index_;  // runs x channels
   // Into request: what a window's motion starts with.
   void set_start(const Window& window, const std::vector<double>& values, const VecX& state, bool derivatives,
                  MotionRequest& request) const;

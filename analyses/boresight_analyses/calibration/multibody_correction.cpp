@@ -51,7 +51,7 @@ MultibodyAt multibody_at(const CalibrationProblem& problem, const Globals& at, i
     plain.evaluate(w, at, VecX::Zero(plain.state_size(w)), true, own);
     for (Eigen::Index i = 0; i < own.r.size(); ++i) {
       const int sample = own.sample[i], channel = own.channel[i], column = plain.column(w.run, channel);
-      const double bias = at.offset_of(channel, data.time[sample]);
+      const double bias = at.offset_at(plain.offset_index(w.run, channel), data.time[sample]);
       const double model = data.value(sample, column) + own.r[i] * plain.sigma[channel] - bias;
       out.difference[w.run](sample, column) = readings(sample - w.first, column) - model;
       if (plain.fit_time_offset)
@@ -99,7 +99,7 @@ CorrectionSize size_of(const CalibrationProblem& problem, const Globals& at, con
         const double measured = problem.runs[w.run].data.value(i, column);
         if (!std::isfinite(measured)) continue;
         const double r =
-            (multibody.reading[w.run](i, column) + at.offset_of(c, problem.runs[w.run].data.time[i]) - measured) /
+            (multibody.reading[w.run](i, column) + at.offset_at(problem.offset_index(w.run, c), problem.runs[w.run].data.time[i]) - measured) /
             problem.sigma[c];
         size.confirmation += std::pow(problem.loss.residual(r), 2);
         size.difference += std::pow(multibody.difference[w.run](i, column) / problem.sigma[c], 2);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
@@ -14,6 +15,18 @@ namespace {
 double log_determinant(const MatX& information) {
   const Eigen::LLT<MatX> root(information);
   return 2.0 * MatX(root.matrixL()).diagonal().array().log().sum();
+}
+
+// A run that has offsets of its own tells the others of what it shares with them alone: what is left of `shared` globals with the offsets
+// behind them unknown, as a part of all G.
+MatX without_own_offsets(const MatX& information, Eigen::Index shared, Eigen::Index G) {
+  const Eigen::Index own = information.rows() - shared;
+  MatX all = MatX::Zero(G, G);
+  const MatX across = information.topRightCorner(shared, own);
+  all.topLeftCorner(shared, shared) =
+      information.topLeftCorner(shared, shared) -
+      across * solve_least(MatX(information.bottomRightCorner(own, own)), MatX(across.transpose()));
+  return all;
 }
 
 }  // namespace
@@ -64,12 +77,18 @@ NextTest judge_candidate(const CalibrationProblem& problem, const Inference& inf
     one.loss.kind = Loss::none;
     const double length = problem.windows.front().end - problem.windows.front().start;
     one.prepare(problem.windows.front().from_rest ? std::max(length, data.time.back()) : length, true);
-    MatX more = MatX::Zero(G, G);
+    Globals there = globals;
+    if (problem.offsets_per_run) {
+      there.bias = one.start().bias;
+      there.drift = one.start().drift;
+    }
+    MatX of_test = MatX::Zero(one.global_count(), one.global_count());
     for (const Window& w : one.windows) {
       WindowResiduals at;
-      one.evaluate(w, globals, VecX::Zero(one.state_size(w)), true, at);
-      more += window_information(one, w, at).information;
+      one.evaluate(w, there, VecX::Zero(one.state_size(w)), true, at);
+      of_test += window_information(one, w, at).information;
     }
+    const MatX more = problem.offsets_per_run ? without_own_offsets(of_test, one.bias_column(), G) : of_test;
     const MatX with = part(known(inference.information + more)), after = with.inverse();
     // Of many parameters the determinants themselves leave what a double holds.
     test.d_gain = log_determinant(with) - log_determinant(H);

@@ -18,8 +18,11 @@ namespace boresight {
 inline VecX units_of(const CalibrationProblem& problem) {
   VecX units = VecX::Ones(problem.global_count());
   units.segment(problem.time_offset_column(), problem.bias_column() - problem.time_offset_column()).setConstant(1e-3);
-  if (problem.fit_bias) units.segment(problem.bias_column(), problem.sigma.size()) = problem.sigma;
-  if (problem.fit_drift) units.segment(problem.drift_column(), problem.sigma.size()) = problem.sigma;
+  for (std::size_t k = 0; k < problem.offsets.size(); ++k) {
+    const double sigma = problem.sigma[problem.offsets[k].channel];
+    if (problem.fit_bias) units[problem.bias_column() + static_cast<int>(k)] = sigma;
+    if (problem.fit_drift) units[problem.drift_column() + static_cast<int>(k)] = sigma;
+  }
   return units;
 }
 
@@ -27,8 +30,8 @@ inline VecX units_of(const CalibrationProblem& problem) {
 inline std::vector<std::pair<int, int>> blocks_of(const CalibrationProblem& problem) {
   std::vector<std::pair<int, int>> blocks;
   for (int g = 0; g < problem.bias_column(); ++g) blocks.emplace_back(g, 1);
-  const int channels = static_cast<int>(problem.channels.size());
-  for (int g = problem.bias_column(); g < problem.global_count(); g += channels) blocks.emplace_back(g, channels);
+  const int offsets = static_cast<int>(problem.offsets.size());
+  for (int g = problem.bias_column(); g < problem.global_count(); g += offsets) blocks.emplace_back(g, offsets);
   return blocks;
 }
 

@@ -145,7 +145,7 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
   ChannelRows at, later, earlier;
   const VecX at_rest;
   for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
-    const int column_here = column(w.run, c);
+    const int column_here = column(w.run, c), offset = offset_index(w.run, c);
     if (column_here < 0) continue;
     for (int i = 0; i < samples; ++i) {
       const double measured = run.data.value(w.first + i, column_here);
@@ -189,11 +189,11 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
         if (fit_lag) out.by_global(m, lag_column()) -= moment.back * moving;
       }
       if (correction) model += correction->offset(w.first + i, column_here);
-      out.r[m] = (model + globals.offset_of(c, of_clock) - measured) / sigma[c];
+      out.r[m] = (model + globals.offset_at(offset, of_clock) - measured) / sigma[c];
       out.sample.push_back(w.first + i);
       out.channel.push_back(c);
-      if (derivatives && fit_bias) out.by_global(m, bias_column() + c) = 1.0 / sigma[c];
-      if (derivatives && fit_drift) out.by_global(m, drift_column() + c) = of_clock / sigma[c];
+      if (derivatives && fit_bias) out.by_global(m, bias_column() + offset) = 1.0 / sigma[c];
+      if (derivatives && fit_drift) out.by_global(m, drift_column() + offset) = of_clock / sigma[c];
       ++m;
     }
   }
@@ -271,7 +271,7 @@ void CalibrationProblem::evaluate_tangent(const Window& w, const Globals& global
   }
   int m = 0;
   for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
-    const int k = column(w.run, c);
+    const int k = column(w.run, c), offset = offset_index(w.run, c);
     if (k < 0) continue;
     for (int i = w.first; i <= w.last; ++i) {
       const double measured = runs[w.run].data.value(i, k);
@@ -279,7 +279,7 @@ void CalibrationProblem::evaluate_tangent(const Window& w, const Globals& global
       double reading = model.reading(i, k) + model.by_time(i, k) * later + model.by_lag(i, k) * more_lag;
       for (int p = 0; p < P; ++p) reading += model.slope[p](i, k) * away[p];
       const double of_clock = runs[w.run].data.time[i];
-      reading += globals.offset_of(c, of_clock);
+      reading += globals.offset_at(offset, of_clock);
       out.r[m] = (reading - measured) / sigma[c];
       out.sample.push_back(i);
       out.channel.push_back(c);
@@ -287,8 +287,8 @@ void CalibrationProblem::evaluate_tangent(const Window& w, const Globals& global
         for (int p = 0; p < P; ++p) out.by_global(m, p) = model.slope[p](i, k) / sigma[c];
         if (fit_time_offset) out.by_global(m, time_offset_column()) = model.by_time(i, k) / sigma[c];
         if (fit_lag) out.by_global(m, lag_column()) = model.by_lag(i, k) / sigma[c];
-        if (fit_bias) out.by_global(m, bias_column() + c) = 1.0 / sigma[c];
-        if (fit_drift) out.by_global(m, drift_column() + c) = of_clock / sigma[c];
+        if (fit_bias) out.by_global(m, bias_column() + offset) = 1.0 / sigma[c];
+        if (fit_drift) out.by_global(m, drift_column() + offset) = of_clock / sigma[c];
       }
       ++m;
     }

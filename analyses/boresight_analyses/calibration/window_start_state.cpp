@@ -104,7 +104,7 @@ VecX CalibrationProblem::guess_state(const Window& window, const Globals& global
           Eigen::RowVectorXd row(unknowns);
           for (int k = 0; k < powers; ++k)
             row.segment(k * n, n) = at.rows.row(0) * scale[0] / sigma[c] * std::pow(tau, k);
-          const double bias = globals.offset_of(c, run.data.time[w.first + i]);
+          const double bias = globals.offset_at(offset_index(w.run, c), run.data.time[w.first + i]);
           const double y = (measured - bias) / sigma[c], r = std::abs(y - row.dot(x));
           const double weight = pass > 0 && r > 3.0 ? 3.0 / r : 1.0;
           H += weight * row.transpose() * row;
