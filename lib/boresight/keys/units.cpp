@@ -81,9 +81,16 @@ ut_system* unit_system() {
           "UDUNITS-2 cannot read its table of units (udunits2.xml); install libudunits2-data or "
           "set UDUNITS2_XML_PATH");
     }
-    // UDUNITS knows "degree" but not "deg".
-    const UnitPtr degree(ut_get_unit_by_name(read, "degree"));
-    if (degree != nullptr) ut_map_name_to_unit("deg", UT_ASCII, degree.get());
+    // UDUNITS knows "degree" but not "deg", nor what astronomers and surveyors write; its "as" is an attosecond.
+    const UnitPtr degree(ut_get_unit_by_name(read, "degree")), arcsecond(ut_get_unit_by_name(read, "arc_second"));
+    const auto map = [](const char* name, const UnitPtr& of, double factor) {
+      const UnitPtr unit(of == nullptr ? nullptr : ut_scale(factor, of.get()));
+      if (unit != nullptr) ut_map_name_to_unit(name, UT_UTF8, unit.get());
+    };
+    map("deg", degree, 1.0);
+    map("gon", degree, 0.9);
+    map("mas", arcsecond, 1e-3);
+    for (const char* name : {"uas", "\u00b5as", "\u03bcas"}) map(name, arcsecond, 1e-6);
     return read;
   }();
   return system;
