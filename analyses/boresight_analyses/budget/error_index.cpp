@@ -1,6 +1,7 @@
 #include "boresight_analyses/budget/error_index.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -34,6 +35,20 @@ class WindowMeans {
   std::size_t width_;
   std::vector<Vec3> sums_;
 };
+
+// What the values in a window change by from sample to sample, by the straight line that fits them best; that of more samples about it where
+// it has so few that noise alone would make much of one.
+Vec3 change_within(const std::vector<Vec3>& values, std::size_t begin, std::size_t width, std::size_t start,
+                   std::size_t end) {
+  constexpr std::size_t kFewest = 12;
+  const std::size_t wide = std::min(std::max(width, kFewest), end - start), more = wide > width ? wide - width : 0;
+  const std::size_t first = std::clamp(begin - std::min(begin, more / 2), start, end - wide);
+  const double middle = 0.5 * (static_cast<double>(wide) - 1.0);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < wide; ++k) sum += (static_cast<double>(k) - middle) * values[first + k];
+  const auto n = static_cast<double>(wide);
+  return wide > 1 ? Vec3(sum / (n * (n * n - 1.0) / 12.0)) : Vec3::Zero();
+}
 
 }  // namespace
 
@@ -104,14 +119,20 @@ std::vector<Vec3> index_values(ErrorIndex index, const PointingHistory& history,
   }
   const std::size_t places = std::clamp(kMany / std::max<std::size_t>(1, e.size()), kFewestPlaces, kPlaces);
   const std::size_t stride = index == ErrorIndex::rpe ? std::max<std::size_t>(1, width / places) : 1;
+  // Samples stand in the middle of their parts of a window, of which its ends are as far away as this.
+  const double beyond =
+      std::clamp(0.5 * (windows.window / history.spacing - static_cast<double>(width) + 1.0), 0.0, 1.0);
+  constexpr std::array<double, 4> kShifts = {1.0, -1.0, 1.0 / 3.0, -1.0 / 3.0};
+  std::size_t place = 0;
   for (std::size_t start = 0; start < e.size(); start += observed) {
     const std::size_t end = std::min(start + observed, e.size());
     for (std::size_t begin = start; begin + apart + width <= end; begin += stride) {
       const Vec3 mean = means.from(begin);
       if (index == ErrorIndex::mpe) values.push_back(mean);
       if (index == ErrorIndex::pde) values.push_back(means.from(begin + apart) - mean);
-      if (index == ErrorIndex::rpe)
-        for (std::size_t k = begin; k < begin + width; ++k) values.push_back(e[k] - mean);
+      if (index != ErrorIndex::rpe) continue;
+      const Vec3 shift = kShifts[place++ % kShifts.size()] * beyond * change_within(e, begin, width, start, end);
+      for (std::size_t k = begin; k < begin + width; ++k) values.push_back(e[k] - mean + shift);
     }
   }
   return values;

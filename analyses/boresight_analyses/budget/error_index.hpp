@@ -50,7 +50,9 @@ struct Windows {
 };
 
 // Every value that the index takes in the history: APE one per sample; MPE, PDE, PRE one per place of the (first)
-// window; RPE one per place of the window and sample in it. Windows do not cross from one observation into the next.
+// window; RPE one per place of the window and sample in it. The instants of RPE are those of the samples, moved by at most half a spacing along
+// the window's own straight line, from place to place elsewhere and to either end of it: what drifts has its whole size, and all of
+// it is linear in e still. Windows do not cross from one observation into the next.
 // They begin at every sample, for RPE at every sixteenth of a window (of histories of more than 25,000 samples at fewer places). Throws std::invalid_argument where missing_for() has
 // something to say.
 std::vector<Vec3> index_values(ErrorIndex index, const PointingHistory& history, const Windows& windows);

@@ -176,16 +176,16 @@ Json spectra_json(const Budget& b) {
 std::vector<std::string> courses_warnings(const BudgetStudy& s) {
   constexpr double kMuchBetween = 0.02;  // eight samples a period have 0.006, four 0.1
   std::vector<std::string> out;
-  // Instants in the middle of N parts of a window see 1 - 1/N of what a drift does within it; of noise they see all.
-  constexpr double kFewInWindow = 20.0;
+  // What drifts within a window is whole however few its samples are; of what bends they miss about 1/N^2.
+  constexpr double kFewInWindow = 10.0;
   double least = kFewInWindow;
   for (const BudgetRequirement& r : s.plan.requirements)
     if (r.index == ErrorIndex::rpe) least = std::min(least, std::round(s.plan.windows_of(r).window / s.plan.sampling));
   if (least < kFewInWindow)
     out.push_back(
-        fmt::format("RPE is asked for over {:.0f} samples of the histories: of what changes steadily within a "
-                    "window, {} are missing; a finer `sampling` shows them",
-                    least, readable_share(1.0 / least)));
+        fmt::format("RPE is asked for over {:.0f} samples of the histories: what changes within a window but steadily "
+                    "is seen coarsely; a finer `sampling` shows it",
+                    least));
   for (const Contributor& c : s.plan.contributors) {
     if (c.kind == ContributorClass::random && !c.noise && c.correlation_time < s.plan.sampling)
       out.push_back(

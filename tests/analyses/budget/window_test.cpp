@@ -98,7 +98,23 @@ TEST(ErrorIndexOfAHistory, OfADriftIsTheDriftOverTheSeparation) {
   for (const Vec3& v : index_values(ErrorIndex::pre, h, windows)) EXPECT_NEAR(v.x(), 1.2, 1e-12);
   double most = 0.0;
   for (const Vec3& v : index_values(ErrorIndex::rpe, h, windows)) most = std::max(most, std::abs(v.x()));
-  EXPECT_NEAR(most, 0.1, 0.002);  // rate times half the window
+  EXPECT_NEAR(most, 0.1, 1e-12);  // rate times half the window
+}
+
+// Samples stand in the middle of their parts of a window; however few they are, and where they do not divide it, its ends are seen.
+TEST(ErrorIndexOfAHistory, OfADriftIsRateTimesHalfTheWindowInRpe) {
+  for (const double window : {0.1, 0.037, 0.5})
+    for (const double samples : {4.0, 10.0, 20.0, 23.4, 90.0}) {
+      const double spacing = window / samples;
+      const PointingHistory h = history_of(spacing * std::floor(1.0 / spacing), static_cast<std::size_t>(1.0 / spacing),
+                                           [](double t) { return Vec3(2.0 * t, 0, 0); });
+      double most = 0.0;
+      const std::vector<Vec3> values = index_values(ErrorIndex::rpe, h, {.window = window});
+      for (const Vec3& v : values) most = std::max(most, std::abs(v.x()));
+      EXPECT_NEAR(most / window, 1.0, 1e-9) << window << ", " << samples;
+      if (samples < 10.0) continue;
+      EXPECT_NEAR(mean_square(values) / (window * window), 1.0 / 3.0, 0.02) << samples;
+    }
 }
 
 TEST(ErrorIndexOfAHistory, WindowsStayWithinAnObservationAndPreLooksAcrossTwo) {
