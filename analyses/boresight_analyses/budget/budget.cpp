@@ -56,6 +56,9 @@ class Maker {
     if (totals_.empty()) throw ComputationError("no member of the ensemble could be followed");
     failed_ = static_cast<std::int64_t>(plan.members - totals_.size());
     attribution_ = runs.rows() == 1 ? plan.attribution : runs.attribution();
+    groups_.emplace(plan, runs, ensemble_, members_);
+    for (const PointingHistory& total : totals_)
+      for (const Vec3& e : total.error) largest_ = std::max(largest_, e.norm());
   }
 
   Budget make() {
@@ -68,7 +71,8 @@ class Maker {
     b.requirements.resize(plan_.requirements.size());
     b.shown.assign(totals_.begin(), totals_.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, totals_.size())));
     for (const ErrorIndex index : plan_.indices()) {
-      for (const Interpretation i : kInterpretations) b.tables.push_back(classical(index, i, plan_.windows));
+      for (ClassicalTable& t : classical_tables(plan_, classical_parts(), index, plan_.windows))
+        b.tables.push_back(std::move(t));
       const Values values = values_of(totals_, index, plan_.windows);
       for (std::size_t axis = 0; axis <= axes_.count(); ++axis) {
         const EnsembleInTime sizes = in_time(values, axis, failed_);
@@ -88,8 +92,9 @@ class Maker {
       if (asked.exposure == 0.0) continue;
       const Windows windows = plan_.windows_of(asked);
       const Values values = values_of(totals_, asked.index, windows);
+      const std::vector<ClassicalTable> tables = classical_tables(plan_, classical_parts(), asked.index, windows);
       b.requirements[r] = answer(r, in_time(values, asked.axis, failed_),
-                                 classical(asked.index, asked.interpretation, windows), values, windows);
+                                 tables[static_cast<std::size_t>(asked.interpretation)], values, windows);
     }
     b.parts = sub_budgets(
         plan_, ensemble_, axes_, table(b, b.headline.index, b.headline.interpretation).lines,
@@ -99,7 +104,8 @@ class Maker {
                                      judgements_.end()));
     b.jitter = jitter_curves(plan_, totals_, axes_.count());
     contribute(b);
-    relieve(b);
+    b.reductions = error_reductions(plan_, {axes_, b.headline, joints_, runs_, ensemble_, *groups_, totals_, members_,
+                                            runs_.rows() == 1 ? plan_.members : attribution_});
     return b;
   }
 
@@ -127,11 +133,20 @@ class Maker {
     BudgetLevel l{.index = t.index, .interpretation = t.interpretation, .axis = axis};
     l.level = sizes.level(t.interpretation, probability, confidence, plan_.leave_out);
     const bool total = axis == axes_.count();
-    l.by_rule = total ? t.total.radius_by_rule(t.interpretation, probability) : t.total.axis_level(axis, probability);
+    l.by_rule = t.by_rule(axis, probability);
+    l.rule_interval = t.rule_interval(axis, probability, plan_.confidence);
     if (total && t.interpretation != Interpretation::ensemble) l.integrated = t.total.radius_integrated(probability);
-    l.standing = standing_of(l.by_rule, l.level.value);
+    constexpr double kRounding = 1e-9;  // of the largest error
+    // Where nothing scatters others would be the same.
+    const bool all_alike = plan_.inputs.size() == 0 && plan_.contributors.empty();
+    const MemberInterval simulated =
+        all_alike ? MemberInterval{l.level.value, l.level.value}
+                  : sizes.about_level(t.interpretation, probability, plan_.confidence, plan_.leave_out);
+    l.standing = standing_of(l.rule_interval, simulated, kRounding * largest_);
     return l;
   }
+
+  ClassicalParts classical_parts() const { return {axes_, joints_, kinds_, alone_, *groups_}; }
 
   // values: of the asked index, of which `sizes` are those along the asked axis.
   RequirementAnswer answer(std::size_t r, const EnsembleInTime& sizes, const ClassicalTable& t, const Values& values,
@@ -177,48 +192,6 @@ class Maker {
       out.second.push_back(index_values(index, *changed, windows));
     }
     return out;
-  }
-
-  ClassicalTable classical(ErrorIndex index, Interpretation interpretation, const Windows& windows) const {
-    ClassicalTable t{.index = index, .interpretation = interpretation, .lines = {}, .total = {}};
-    const auto axes = static_cast<Eigen::Index>(axes_.count());
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      t.lines.push_back({joints_[j], kClearanceKind, "", std::vector<Moments>(axes_.count()), {}, {}});
-      if (alone_[j].error.empty()) continue;
-      const Values values = {index_values(index, alone_[j], windows)};
-      for (Eigen::Index a = 0; a < axes; ++a)
-        t.lines.back().axes[static_cast<std::size_t>(a)] = moments_of(values, a, interpretation);
-    }
-    for (std::size_t g = 0; g < runs_.groups(); ++g) {
-      t.lines.push_back({plan_.groups.names[g], kinds_[g], "", {}, {}, {}});
-      const auto [drawn, held] = with_and_without({.held = static_cast<int>(g)}, index, windows);
-      const bool adds_up = plan_.is_of_errors(g);
-      const Values part = adds_up ? difference_of(drawn, held) : Values{};
-      for (Eigen::Index a = 0; a < axes; ++a) {
-        if (adds_up) {
-          t.lines.back().axes.push_back(moments_of(part, a, interpretation));
-          continue;
-        }
-        const Moments with = moments_of(drawn, a, interpretation), without = moments_of(held, a, interpretation);
-        t.lines.back().axes.push_back(
-            {with.mean - without.mean, std::sqrt(std::max(0.0, with.sd * with.sd - without.sd * without.sd))});
-      }
-    }
-    for (const KnownError& known : plan_.known) {
-      t.lines.push_back({known.name, kKnownKind, "", {}, {}, {}});
-      const Values part = {index_values(index, known.history, windows)};
-      for (Eigen::Index a = 0; a < axes; ++a) t.lines.back().axes.push_back(moments_of(part, a, interpretation));
-    }
-    const std::vector<Draws> draws = draws_of(plan_.contributors, plan_.correlations);
-    for (std::size_t i = 0; i < plan_.contributors.size(); ++i) {
-      const Contributor& c = plan_.contributors[i];
-      const AxesMoments m = axes_moments(c, index, interpretation, windows, plan_.duration);
-      t.lines.push_back({c.name, kind_of(c), c.group, {}, m.factor, draws[i], m.either_sign});
-      for (Eigen::Index a = 0; a < axes; ++a) t.lines.back().axes.push_back({m.mean[a], m.factor.row(a).norm()});
-    }
-    t.total = total_of(t.lines);
-    if (t.total.axes.empty()) t.total.axes.resize(axes_.count());
-    return t;
   }
 
   MemberProducts products(const Budget& b) const {
@@ -302,46 +275,6 @@ class Maker {
       add("together", "joints and scatter", attributed > 0 ? std::min(p.all.size(), attributed) : p.all.size());
   }
 
-  void relieve(Budget& b) const {
-    const auto add = [&](const std::string& name, const std::string& action, const MemberVariant& variant) {
-      std::vector<PointingHistory> before, after;
-      for (std::uint64_t member = 0; member < attribution_; ++member) {
-        PointingHistory drawn = ensemble_.total(member), changed = ensemble_.total(member, variant);
-        if (drawn.error.empty() || changed.error.empty()) continue;
-        before.push_back(std::move(drawn));
-        after.push_back(std::move(changed));
-      }
-      if (before.empty()) return;
-      const BudgetRequirement& h = b.headline;
-      const EnsembleInTime now = in_time(values_of(before, h.index, plan_.windows), h.axis, 0),
-                           then = in_time(values_of(after, h.index, plan_.windows), h.axis, 0);
-      const auto value = [&](const EnsembleInTime& e) {
-        return e.level(h.interpretation, h.probability, plan_.confidence, plan_.leave_out).value;
-      };
-      ErrorReduction reduction{name, action, value(now), value(then)};
-      // The same members now and then: what they have in common falls out.
-      const MemberBootstrap members(before.size(), plan_.seed, 3);
-      std::vector<double> gains;
-      for (std::uint64_t r = 0; r < MemberBootstrap::kResamples; ++r) {
-        const std::vector<std::uint32_t> times = members.times(r);
-        gains.push_back(now.resampled_level(h.interpretation, h.probability, plan_.leave_out, times) -
-                        then.resampled_level(h.interpretation, h.probability, plan_.leave_out, times));
-      }
-      reduction.interval = expanded_percentiles(std::move(gains), reduction.gain(), before.size(), plan_.confidence);
-      b.reductions.push_back(std::move(reduction));
-    };
-    for (std::size_t j = 0; j < joints_.size(); ++j)
-      add(joints_[j], "half the clearance", {.halved = static_cast<int>(j)});
-    for (std::size_t g = 0; g < runs_.groups(); ++g)
-      add(plan_.groups.names[g], plan_.is_of_errors(g) ? "as drawn" : "no scatter", {.held = static_cast<int>(g)});
-    for (std::size_t i = 0; i < plan_.known.size(); ++i)
-      add(plan_.known[i].name, "as drawn", {.known = static_cast<int>(i)});
-    for (std::size_t i = 0; i < plan_.contributors.size(); ++i)
-      add(plan_.contributors[i].name, "half of it", {.external = static_cast<int>(i)});
-    std::stable_sort(b.reductions.begin(), b.reductions.end(),
-                     [](const ErrorReduction& x, const ErrorReduction& y) { return x.gain() > y.gain(); });
-  }
-
   const BudgetPlan& plan_;
   const BudgetRuns& runs_;
   const std::vector<Judgement>& judgements_;
@@ -355,6 +288,8 @@ class Maker {
   std::vector<std::uint64_t> members_;   // their numbers
   std::int64_t failed_ = 0;
   std::uint64_t attribution_ = 0;
+  std::optional<GroupParts> groups_;
+  double largest_ = 0.0;  // error of any member at any time
 };
 
 }  // namespace

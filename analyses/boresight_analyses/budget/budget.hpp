@@ -19,7 +19,8 @@
 #include <vector>
 
 #include "boresight_analyses/budget/budget_runs.hpp"
-#include "boresight_analyses/budget/classical.hpp"
+#include "boresight_analyses/budget/classical_table.hpp"
+#include "boresight_analyses/budget/error_reduction.hpp"
 #include "boresight_analyses/budget/error_spectrum.hpp"
 #include "boresight_analyses/budget/jitter.hpp"
 #include "boresight_analyses/budget/line_kinds.hpp"
@@ -35,15 +36,9 @@ struct BudgetLevel {
   std::size_t axis = 0;  // BudgetAxes::count(): the total
   ReportedInterval level = {};
   double by_rule = 0.0;                        // of the classical table
+  MemberInterval rule_interval = {};           // of by_rule: with other members of the attribution
   std::optional<double> integrated = {};       // of the total, but for maxima: the Gaussian with the table's moments
   RuleStanding standing = RuleStanding::fair;  // of the rule
-};
-
-struct ClassicalTable {
-  ErrorIndex index = ErrorIndex::ape;
-  Interpretation interpretation = Interpretation::mixed;
-  std::vector<ClassicalLine> lines;
-  ClassicalTotal total;
 };
 
 struct RequirementAnswer {
@@ -64,14 +59,6 @@ struct Contribution {
   std::string name, kind;
   double share = 0.0;
   MemberInterval interval = {};  // of the share, at the plan's confidence
-};
-
-// The headline's level on the attribution's members if one thing were better.
-struct ErrorReduction {
-  std::string name, action;
-  double before = 0.0, after = 0.0;
-  MemberInterval interval = {};  // of the gain, at the plan's confidence
-  double gain() const { return before - after; }
 };
 
 struct Budget {

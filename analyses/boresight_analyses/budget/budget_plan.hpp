@@ -134,7 +134,9 @@ struct BudgetPlan {
   std::vector<ContributorCorrelation> correlations;
   std::vector<BudgetPart> parts;
   std::vector<KnownError> known;  // once follow_errors() was called
-  double duration = 0.0;          // of the histories: the motion from `start` on [s]
+  // Likewise, of parameters in groups of standing errors: what one unit does over the histories, to first order; empty where that is not told.
+  std::vector<std::vector<Vec3>> by_parameter;
+  double duration = 0.0;  // of the histories: the motion from `start` on [s]
 
   // Those that a requirement is taken over.
   Windows windows_of(const BudgetRequirement& requirement) const;

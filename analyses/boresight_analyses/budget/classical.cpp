@@ -87,4 +87,11 @@ RuleStanding standing_of(double by_rule, double simulated) {
   return by_rule > kWastefulAbove * simulated ? RuleStanding::wasteful : RuleStanding::fair;
 }
 
+RuleStanding standing_of(const MemberInterval& by_rule, const MemberInterval& simulated, double nothing) {
+  if (by_rule.low < nothing && simulated.low < nothing) return RuleStanding::fair;
+  if (standing_of(by_rule.high, simulated.low) == RuleStanding::unsafe) return RuleStanding::unsafe;
+  return standing_of(by_rule.low, simulated.high) == RuleStanding::wasteful ? RuleStanding::wasteful
+                                                                            : RuleStanding::fair;
+}
+
 }  // namespace boresight

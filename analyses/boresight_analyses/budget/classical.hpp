@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "boresight_analyses/budget/contributor.hpp"
+#include "boresight_analyses/budget/member_bootstrap.hpp"
 
 namespace boresight {
 
@@ -25,6 +26,7 @@ struct ClassicalLine {
   std::optional<Mat3> factor = {};  // B with B B^T the covariance of its axes; none: they are independent
   std::optional<Draws> draws = {};  // of a contributor; what has none is independent of all but its group
   bool either_sign = false;         // its means are sizes (AxesMoments)
+  bool of_all_members = true;       // of a group: known of every member, not of some of them alone
 };
 
 struct ClassicalTotal {
@@ -37,10 +39,12 @@ struct ClassicalTotal {
 };
 ClassicalTotal total_of(std::span<const ClassicalLine> lines);
 
-// How a level by rule stands against what was simulated.
+// How a level by rule stands against what was simulated. Of intervals: only as far as they leave no doubt; and what is both below `nothing`,
+// which rounding alone makes, is fair.
 enum class RuleStanding { fair, unsafe, wasteful };
 const char* to_string(RuleStanding standing);
 inline constexpr double kUnsafeBelow = 0.98, kWastefulAbove = 1.2;  // times the simulated level
 RuleStanding standing_of(double by_rule, double simulated);
+RuleStanding standing_of(const MemberInterval& by_rule, const MemberInterval& simulated, double nothing);
 
 }  // namespace boresight

@@ -83,6 +83,38 @@ bool comes_either_way(const Contributor& c, Interpretation interpretation) {
   return std::any_of(c.parameter.begin(), c.parameter.end(), scatters);
 }
 
+// Of the measured course's values, without the factor.
+std::vector<MemberSums> sums_of_stretches(const MeasuredCourse& measured, ErrorIndex index, const Windows& windows,
+                                          double duration) {
+  const std::vector<std::vector<Vec3>>& stretches = measured.stretches();
+  const double spacing = duration / static_cast<double>(stretches.front().size());
+  std::vector<MemberSums> sums;
+  for (const std::vector<Vec3>& stretch : stretches)
+    sums.push_back(sums_of(index_values(index, {spacing, stretch}, windows)));
+  return sums;
+}
+
+// How the contributor's own axes vary together that have one course: of others by axes_factor alone.
+std::optional<Mat3> covariance_of(const Contributor& c, ErrorIndex index, Interpretation interpretation,
+                                  const Windows& windows, double duration) {
+  if (c.of_error) {
+    const std::size_t samples = std::max<std::size_t>(1, c.of_error->by_value.size());
+    return covariance_of(*c.of_error, index, interpretation, windows, duration / static_cast<double>(samples));
+  }
+  if (!c.measured) return std::nullopt;
+  Vec3 rms = Vec3::Zero(), mean = Vec3::Zero();
+  for (Eigen::Index a = 0; a < 3; ++a)
+    if (const DistributionPtr& factor = c.parameter[static_cast<std::size_t>(a)])
+      rms[a] = Ensemble(*factor).rms, mean[a] = factor->mean();
+  std::vector<MemberSums> sums = sums_of_stretches(*c.measured, index, windows, duration);
+  // The factor is one for all axes that it has.
+  if (interpretation != Interpretation::mixed) return covariance_of(sums, interpretation);
+  MemberSums all;
+  for (const MemberSums& s : sums) all.count += s.count, all.sum += s.sum, all.squares += s.squares;
+  const Vec3 of_mean = mean.cwiseProduct(all.sum / all.count);
+  return Mat3(rms.asDiagonal() * (all.squares / all.count) * rms.asDiagonal() - of_mean * of_mean.transpose());
+}
+
 constexpr std::uint64_t kAxes = 4;           // places a stream has for an observation
 constexpr std::uint64_t kPlaceOfFactor = 3;  // the last of them
 
@@ -120,12 +152,8 @@ Moments moments(const Contributor& c, int axis, ErrorIndex index, Interpretation
     case ContributorClass::spectrum:
       break;
     case ContributorClass::measured: {
-      const std::vector<std::vector<Vec3>>& stretches = c.measured->stretches();
-      const double spacing = duration / static_cast<double>(stretches.front().size());
-      std::vector<std::vector<Vec3>> values;
-      for (const std::vector<Vec3>& stretch : stretches)
-        values.push_back(index_values(index, {spacing, stretch}, windows));
-      return times(e, moments_of(values, axis, interpretation), interpretation);
+      const std::vector<MemberSums> sums = sums_of_stretches(*c.measured, index, windows, duration);
+      return times(e, moments_of(sums, axis, interpretation), interpretation);
     }
     case ContributorClass::drift: {
       const double whole = c.recalibrated ? windows.observation_in(duration) : duration;
@@ -158,15 +186,17 @@ Moments moments(const Contributor& c, int axis, ErrorIndex index, Interpretation
 AxesMoments axes_moments(const Contributor& c, ErrorIndex index, Interpretation interpretation, const Windows& windows,
                          double duration) {
   AxesMoments out;
-  Mat3 deviations = Mat3::Zero();
+  Vec3 deviations = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     const Moments m = moments(c, axis, index, interpretation, windows, duration);
     out.mean[axis] = m.mean;
-    deviations(axis, axis) = m.sd;
+    deviations[axis] = m.sd;
   }
   out.either_sign = comes_either_way(c, interpretation);
   out.mean = out.either_sign ? Vec3(c.frame.cwiseAbs() * out.mean.cwiseAbs()) : Vec3(c.frame * out.mean);
-  out.factor = c.frame * deviations * c.axes_factor;
+  const std::optional<Mat3> together = covariance_of(c, index, interpretation, windows, duration);
+  out.factor =
+      c.frame * (together ? factor_with(*together, deviations) : Mat3(deviations.asDiagonal() * c.axes_factor));
   return out;
 }
 

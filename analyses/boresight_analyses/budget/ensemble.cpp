@@ -51,15 +51,9 @@ PointingHistory BudgetEnsemble::total(std::uint64_t member, const MemberVariant&
   const PointingHistory* own = mechanism(member, variant);
   if (own == nullptr) return {plan_.sampling, {}};
   PointingHistory sum = *own;
-  if (variant.known >= 0) {
-    const std::vector<Vec3>& part = plan_.known[static_cast<std::size_t>(variant.known)].history.error;
-    for (std::size_t k = 0; k < std::min(part.size(), sum.error.size()); ++k) sum.error[k] -= part[k];
-  }
   for (std::size_t i = 0; i < plan_.contributors.size(); ++i) {
-    const double factor = variant.external == static_cast<int>(i) ? variant.factor : 1.0;
     const PointingHistory added = external(member, i);
-    for (std::size_t k = 0; k < std::min(sum.error.size(), added.error.size()); ++k)
-      sum.error[k] += factor * added.error[k];
+    for (std::size_t k = 0; k < std::min(sum.error.size(), added.error.size()); ++k) sum.error[k] += added.error[k];
   }
   return sum;
 }

@@ -30,11 +30,8 @@ std::vector<double> sizes_of(const std::vector<Vec3>& values, const AxisOf& axis
 
 // What is different of a member.
 struct MemberVariant {
-  int held = -1;      // a group at its medians
-  int halved = -1;    // a joint's clearance
-  int known = -1;     // without the part of this known error
-  int external = -1;  // this external contributor times `factor`
-  double factor = 0.5;
+  int held = -1;    // a group at its medians
+  int halved = -1;  // a joint's clearance
 };
 
 class BudgetEnsemble {

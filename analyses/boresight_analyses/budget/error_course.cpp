@@ -72,4 +72,25 @@ Moments moments(const ErrorCourse& error, int axis, ErrorIndex index, Interpreta
   return {mean, std::sqrt(std::max(0.0, squares / static_cast<double>(a.size()) - mean * mean))};
 }
 
+Mat3 covariance_of(const ErrorCourse& error, ErrorIndex index, Interpretation interpretation, const Windows& windows,
+                   double spacing) {
+  if (error.by_value.empty()) return Mat3::Zero();
+  const std::vector<Vec3> a = index_values(index, {spacing, error.by_course}, windows),
+                          b = index_values(index, {spacing, error.by_value}, windows);
+  const Spread factor(error.factor, 1.0), value(error.value, 0.0);
+  const auto with = [&](double f, double v) {
+    std::vector<Vec3> out;
+    for (std::size_t k = 0; k < a.size(); ++k) out.emplace_back(f * a[k] + v * b[k]);
+    return sums_of(out);
+  };
+  std::vector<MemberSums> members;
+  if (interpretation == Interpretation::temporal)
+    for (const double f : factor.ends)
+      for (const double v : value.ends) members.push_back(with(f, v));
+  else  // two values of each, a deviation to both sides of its mean, have the same moments
+    for (const double f : {factor.mean - factor.sd, factor.mean + factor.sd})
+      for (const double v : {value.mean - value.sd, value.mean + value.sd}) members.push_back(with(f, v));
+  return covariance_of(members, interpretation);
+}
+
 }  // namespace boresight

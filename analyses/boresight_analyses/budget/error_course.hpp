@@ -39,6 +39,9 @@ std::vector<Vec3> course_of(const ErrorCourse& error, double factor, double valu
 // the mean square over the members is largest; temporal: of the worst of the ends of F and V.
 Moments moments(const ErrorCourse& error, int axis, ErrorIndex index, Interpretation interpretation,
                 const Windows& windows, double spacing);
+// How its axes vary together, as covariance_of() of member_moments.hpp has it; temporal: of the ends that are worst for all axes together.
+Mat3 covariance_of(const ErrorCourse& error, ErrorIndex index, Interpretation interpretation, const Windows& windows,
+                   double spacing);
 
 // An error to which the mechanism file gives a value that nothing scatters: its part is in every member's motion.
 struct KnownError {

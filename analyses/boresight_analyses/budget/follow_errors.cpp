@@ -25,6 +25,22 @@ std::vector<bool> known_errors(const BudgetPlan& plan, const Mechanism& mechanis
   return known;
 }
 
+// Which errors the parameters draw that stand in a group of errors alone.
+std::vector<std::set<std::size_t>> drawn_errors(const BudgetPlan& plan, const Mechanism& mechanism) {
+  std::vector<std::set<std::size_t>> drawn(plan.inputs.parameters.size());
+  for (std::size_t g = 0; g < plan.groups.members.size(); ++g) {
+    if (!plan.is_of_errors(g)) continue;
+    for (const int i : plan.groups.members[g]) {
+      Parameters marked = mechanism.parameters();
+      for (const ParameterPath& place : plan.inputs.parameters[static_cast<std::size_t>(i)].places)
+        place.set(marked, std::numeric_limits<double>::quiet_NaN());
+      for (std::size_t e = 0; e < marked.error.size(); ++e)
+        if (std::isnan(marked.error[e])) drawn[static_cast<std::size_t>(i)].insert(e);
+    }
+  }
+  return drawn;
+}
+
 std::size_t place_of(const MechanismDescription& mechanism, const std::string& name) {
   const auto at = std::find_if(mechanism.errors.begin(), mechanism.errors.end(),
                                [&](const ErrorDescription& error) { return error.name == name; });
@@ -81,12 +97,17 @@ std::vector<std::string> follow_errors(BudgetPlan& plan, const Mechanism& mechan
   const bool contributes = !errors.empty();
   for (std::size_t e = 0; e < known.size(); ++e)
     if (known[e]) errors.insert(e);
+  const bool told = !errors.empty();
+  const std::vector<std::set<std::size_t>> drawn = drawn_errors(plan, mechanism);
+  for (const std::set<std::size_t>& of : drawn) errors.insert(of.begin(), of.end());
+  plan.by_parameter.assign(drawn.size(), {});
   if (errors.empty()) return untold;
   std::optional<ColumnsOnGrid> columns;
   try {
     columns.emplace(plan, mechanism, quantity, errors);
   } catch (const ComputationError& refused) {
     if (contributes) throw;
+    if (!told) return untold;
     return {"the parts of the known errors cannot be told: " + std::string(refused.what())};
   }
   for (Contributor& c : plan.contributors) {
@@ -101,6 +122,18 @@ std::vector<std::string> follow_errors(BudgetPlan& plan, const Mechanism& mechan
     for (std::size_t k = 0; c.of_error->course && k < by_course.size(); ++k)
       by_course[k] = c.of_error->course->at(columns->time()[k]).value * by_value[k];
     for (std::vector<Vec3>* part : {&by_value, &by_course}) pass_through(plan, *part);
+  }
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const bool followed = std::none_of(drawn[i].begin(), drawn[i].end(),
+                                       [&](std::size_t error) { return !columns->refusal(error).empty(); });
+    if (drawn[i].empty() || !followed) continue;
+    std::vector<Vec3>& part = plan.by_parameter[i];
+    for (const std::size_t error : drawn[i]) {
+      const std::vector<Vec3> one = columns->of(error);
+      part.resize(one.size(), Vec3::Zero());
+      for (std::size_t k = 0; k < one.size(); ++k) part[k] += one[k];
+    }
+    pass_through(plan, part);
   }
   plan.known.clear();
   for (std::size_t e = 0; e < known.size(); ++e) {

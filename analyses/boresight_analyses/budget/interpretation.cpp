@@ -1,6 +1,7 @@
 #include "boresight_analyses/budget/interpretation.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -84,12 +85,22 @@ const EnsembleInTime::Pool& EnsembleInTime::pool() const {
 double EnsembleInTime::resampled_level(Interpretation interpretation, double probability, double leave_out,
                                        const std::vector<std::uint32_t>& times) const {
   const double drawn = static_cast<double>(std::accumulate(times.begin(), times.end(), std::uint64_t{0}));
+  // From the end that is nearer.
   const auto at_share = [](auto&& values, auto&& count_of, double all, double share) {
     const double wanted = share * all * (1.0 - 1e-12);
-    double below = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if ((below += count_of(i)) >= wanted && count_of(i) > 0.0) return values[i];
-    return values.back();
+    if (share < 0.5) {
+      double below = 0.0;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if ((below += count_of(i)) >= wanted && count_of(i) > 0.0) return values[i];
+      return values.back();
+    }
+    double up_to = all, level = values.back();
+    for (std::size_t i = values.size(); i-- > 0 && up_to >= wanted;) {
+      const double count = count_of(i);
+      if (count > 0.0) level = values[i];
+      up_to -= count;
+    }
+    return level;
   };
   if (interpretation == Interpretation::mixed)
     return at_share(
@@ -156,6 +167,37 @@ ReportedInterval EnsembleInTime::level(Interpretation interpretation, double pro
           false,
           "Hoeffding's bound of the members' shares of the time",
           Independent::name};
+}
+
+MemberInterval EnsembleInTime::about_level(Interpretation interpretation, double probability, double confidence,
+                                           double leave_out) const {
+  if (interpretation != Interpretation::mixed) {
+    const ReportedInterval of = level(interpretation, probability, confidence, leave_out);
+    const bool worst_seen = interpretation == Interpretation::temporal && leave_out == 0.0;
+    return {of.low, worst_seen ? of.value : of.high};
+  }
+  // Woodruff's interval: the levels at the shares that the level's own share may be (J. Am. Stat. Assoc. 47, 1952).
+  const auto n = static_cast<double>(members());
+  if (members() < static_cast<std::int64_t>(MemberBootstrap::kFewest)) return {};
+  std::vector<double> all;
+  for (const std::vector<double>& member : sizes_) all.insert(all.end(), member.begin(), member.end());
+  const auto at = [&](double share) {
+    const auto nth = all.begin() + static_cast<std::ptrdiff_t>(rank_of(all.size(), share));
+    std::nth_element(all.begin(), nth, all.end());
+    return *nth;
+  };
+  const double value = at(probability);
+  double sum = 0.0, squares = 0.0;
+  for (const std::vector<double>& member : sizes_) {
+    const double share = share_at_or_below(member, value);
+    sum += share;
+    squares += share * share;
+  }
+  const double mean = sum / n, variance = std::max(0.0, squares / n - mean * mean) / (n - 1.0);
+  const double reach =
+      quantile(complement(boost::math::students_t(n - 1.0), 0.5 * (1.0 - confidence))) * std::sqrt(variance);
+  return {probability > reach ? at(probability - reach) : 0.0,
+          probability + reach < 1.0 ? at(probability + reach) : kInfinity};
 }
 
 double EnsembleInTime::share_of_members_shown(std::int64_t hits, const Judgement& judgement) const {

@@ -19,6 +19,7 @@
 #include <mutex>
 #include <vector>
 
+#include "boresight_analyses/budget/member_bootstrap.hpp"
 #include "boresight_analyses/statistics/interval.hpp"
 #include "boresight_analyses/statistics/looks.hpp"
 
@@ -45,6 +46,11 @@ class EnsembleInTime {
   // The level that holds with this probability.
   ReportedInterval level(Interpretation interpretation, double probability, double confidence,
                          double leave_out = 0.0) const;
+
+  // What the level is compared with: like level(), but of the mixed interpretation by how much the members' shares of the time differ, which
+  // no bound for any share is; of the worst of the members seen that one itself. Failed members are left out.
+  MemberInterval about_level(Interpretation interpretation, double probability, double confidence,
+                             double leave_out = 0.0) const;
 
   struct Compliance {
     bool met = false;

@@ -138,5 +138,51 @@ drives = { J1 = "0", J2 = "0", J3 = "0" }
   EXPECT_FALSE(linear.compliance.met);
 }
 
+// The classical line of an error is that of all members, whichever of them are run without it.
+TEST_F(BudgetOfErrors, HasTheSameRuleHoweverFewMembersAreAttributed) {
+  const auto made = [&](int attribution) {
+    return make_budget(
+               mechanism_,
+               "[[random]]\nparameter = \"error.offset\"\ndistribution = { normal = { mean = \"0 arcsec\", sd = "
+               "\"10 arcsec\" } }\n[budget]\nmembers = 60\nsampling = \"20 ms\"\nattribution = " +
+                   std::to_string(attribution) + "\n")
+        .budget;
+  };
+  const Budget few = made(3), all = made(60);
+  ASSERT_EQ(few.levels.size(), all.levels.size());
+  for (std::size_t i = 0; i < few.levels.size(); ++i) {
+    EXPECT_NEAR(few.levels[i].by_rule, all.levels[i].by_rule, 1e-3 * all.levels[i].by_rule) << i;
+    EXPECT_EQ(few.levels[i].rule_interval.low, few.levels[i].by_rule) << i;
+    // n_P sd is what one axis of a Gaussian error has.
+    if (few.levels[i].axis == 2) continue;
+    EXPECT_EQ(few.levels[i].standing, RuleStanding::fair) << i;
+  }
+  ASSERT_EQ(few.reductions.size(), 1u);
+  EXPECT_EQ(few.reductions[0].members, 60u);
+  EXPECT_NEAR(few.reductions[0].gain(), all.reductions[0].gain(), 1e-3 * all.reductions[0].gain());
+}
+
+// An error about an axis between x and y has both at once: the half cone is that of one axis.
+TEST_F(BudgetOfErrors, AboutAnAxisBetweenTheirsHaveTheHalfConeOfOneAxis) {
+  const auto tilted = std::make_shared<const Mechanism>(read_mechanism_text(
+      std::string(kMirror) + "[[error]]\nname = \"tilt\"\njoint = \"Y\"\nbody = \"mirror\"\nrotation = [1, 1, 0]\n",
+      "tilted.toml"));
+  const std::string spread = "distribution = { normal = { mean = \"0 arcsec\", sd = \"10 arcsec\" } }\n",
+                    budget = "[budget]\nmembers = 60\nattribution = 3\nsampling = \"20 ms\"\nstart = \"0 s\"\n";
+  const double one = 1.959964 * 10.0 * M_PI / 180.0 / 3600.0;
+  const auto integrated = [](const Budget& b) {
+    return *std::find_if(b.levels.begin(), b.levels.end(), [](const BudgetLevel& l) {
+              return l.index == ErrorIndex::ape && l.interpretation == Interpretation::mixed && l.axis == 2;
+            })->integrated;
+  };
+  const Budget drawn = make_budget(tilted, "[[random]]\nparameter = \"error.tilt\"\n" + spread + budget).budget;
+  const std::vector<Moments>& axes = line(drawn, ErrorIndex::ape, 0).axes;
+  const double sd = std::hypot(axes[0].sd, axes[1].sd);
+  EXPECT_NEAR(integrated(drawn), 1.96 * sd, 0.05 * sd);
+  const Budget beside =
+      make_budget(tilted, budget + "[[budget.contributor]]\nname = \"b\"\nerror = \"tilt\"\n" + spread).budget;
+  EXPECT_NEAR(integrated(beside), one, 0.01 * one);
+}
+
 }  // namespace budget_of_errors_test
 }  // namespace boresight

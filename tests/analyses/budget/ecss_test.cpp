@@ -61,6 +61,15 @@ TEST(HalfCone, WithOneDeviationAndNoMeanIsRayleighs) {
   EXPECT_NEAR(radius_of(0.9973, std::vector{0.0, 0.0}, std::vector{1.0, 1.0}), 3.4393, 1e-4);
 }
 
+TEST(ClassicalRule, IsCalledUnsafeOrWastefulOnlyBeyondWhatBothMayBeOffBy) {
+  constexpr double kNothing = 1e-9;
+  EXPECT_EQ(standing_of({9.0, 9.2}, {10.0, 10.5}, kNothing), RuleStanding::unsafe);
+  EXPECT_EQ(standing_of({9.0, 9.9}, {10.0, 10.5}, kNothing), RuleStanding::fair);
+  EXPECT_EQ(standing_of({13.0, 14.0}, {10.0, 10.5}, kNothing), RuleStanding::wasteful);
+  EXPECT_EQ(standing_of({12.5, 14.0}, {10.0, 10.5}, kNothing), RuleStanding::fair);
+  EXPECT_EQ(standing_of({1e-19, 1e-19}, {3e-19, 3e-19}, kNothing), RuleStanding::fair);
+}
+
 // ECSS-E-ST-60-10C, A.2: the rule is for no mean. Offset 1, deviations (1, 1).
 TEST(HalfCone, WithAnOffsetNeedsTheIntegralAndTheRuleIsUnsafe) {
   const double exact = radius_of(0.9973, std::vector{1.0, 0.0}, std::vector{1.0, 1.0});
