@@ -17,6 +17,7 @@ DisplayUnit budget_unit(const BudgetStudy& study, double largest);
 std::string interval_text(const BudgetStudy& study, const ReportedInterval& interval);
 std::string standing_text(RuleStanding standing, double by_rule, double simulated);
 const BudgetLevel& headline_level(const Budget& budget);
+const char* source_of(const Budget& budget, const ErrorReduction& reduction);
 
 report::Table requirement_table(const BudgetStudy& study, const Budget& budget);
 report::Table level_table(const BudgetStudy& study, const Budget& budget);

@@ -77,6 +77,10 @@ std::string standing_text(RuleStanding standing, double by_rule, double simulate
                                : fmt::format("{}, {} above", to_string(standing), relative_text(off, 2, "it"));
 }
 
+const char* source_of(const Budget& b, const ErrorReduction& r) {
+  return r.members > b.attribution ? kFromMembers : kFromAttribution;
+}
+
 const BudgetLevel& headline_level(const Budget& b) {
   return *std::find_if(b.levels.begin(), b.levels.end(), [&](const BudgetLevel& l) {
     return l.index == b.headline.index && l.interpretation == b.headline.interpretation && l.axis == b.headline.axis;
@@ -122,7 +126,8 @@ report::Table level_table(const BudgetStudy& s, const Budget& b) {
           fmt::format("Levels that hold with {}; from and to: their {} interval. By rule: one axis |mean| + n_P sd, "
                       "the {} by the rule for equal axes without a mean; integrated: the Gaussian with the table's "
                       "means and deviations. Unsafe: the rule is more than {:.0f} % below what was simulated; "
-                      "wasteful: more than {:.0f} % above. Sources: {}, of the rule {}.",
+                      "wasteful: more than {:.0f} % above; both only where other members would not make it fair. "
+                      "Sources: {}, of the rule {}.",
                       percent(b.headline.probability), percent(s.plan.confidence), axes.total,
                       100.0 * (1.0 - kUnsafeBelow), 100.0 * (kWastefulAbove - 1.0), kFromMembers, kFromClasses),
       .columns = {{"Index, axis"},
@@ -170,13 +175,16 @@ report::Table relief_table(const BudgetStudy& s, const Budget& b) {
   const double level = headline_level(b).level.value;
   report::Table table{
       .title = "What to tighten first",
-      .caption = fmt::format("The level of {} of the members, and what it becomes if one thing is better; not a linear "
-                             "guess but runs of their own; known errors are taken off by their columns of influence. "
-                             "Low and high of the gain: {} confidence, by the bootstrap over these "
-                             "members. Margin then: the gain taken off the level of all members.",
+      .caption = fmt::format("The level of the members, and what it becomes if one thing is better: contributors are "
+                             "taken off every member, standing errors by their columns of influence where these tell "
+                             "what the runs do; anything else by runs of their own, of the first {} members. "
+                             "Low and high of the gain: {} confidence, by the bootstrap over these members; without a "
+                             "high one where they are too few for the probability asked for. Margin then: the gain "
+                             "taken off the level of all members.",
                              b.attribution, readable_share(s.plan.confidence)),
       .columns = {{"What"},
                   {"If"},
+                  {"Members", "", "right"},
                   {"Level now"},
                   {"Level then"},
                   {"Gain"},
@@ -187,10 +195,10 @@ report::Table relief_table(const BudgetStudy& s, const Budget& b) {
   const bool asked = headline_answer(b) != nullptr;
   for (const ErrorReduction& r : b.reductions)
     table.rows.push_back(
-        {r.name, r.action, budget_value(s, r.before), budget_value(s, r.after), budget_value(s, r.gain()),
+        {r.name, r.action, r.members, budget_value(s, r.before), budget_value(s, r.after), budget_value(s, r.gain()),
          std::isfinite(r.interval.low) ? budget_value(s, r.interval.low) : "",
          std::isfinite(r.interval.high) ? budget_value(s, r.interval.high) : "",
-         asked ? readable_share((b.headline.limit - level + r.gain()) / b.headline.limit) : "", kFromAttribution});
+         asked ? readable_share((b.headline.limit - level + r.gain()) / b.headline.limit) : "", source_of(b, r)});
   return table;
 }
 
@@ -274,7 +282,8 @@ report::Table classical_table(const BudgetStudy& s, const ClassicalTable& t) {
       .caption =
           "Means add linearly, deviations by root sum of squares, linearly within a group. Clearances: the "
           "motion at the medians, one joint open at a time. Scatter: what mean and variance lose with the group "
-          "held at its medians. Standing errors that are known or have a course: by their columns of influence. "
+          "held at its medians. Standing errors: by their columns of influence; those that scatter by runs without "
+          "them, where the columns do not tell what these do. "
           "Others: by their class, with exact window filters.",
       .columns = {{"Contributor"}, {"Class"}, {"Group"}}};
   for (const std::string& name : axes.names) {
@@ -293,7 +302,7 @@ report::Table classical_table(const BudgetStudy& s, const ClassicalTable& t) {
   for (const ClassicalLine& line : t.lines)
     row({line.name, line.kind, line.group}, line.axes,
         line.kind == kClearanceKind  ? kFromNominal
-        : is_of_group(line.kind)     ? kFromAttribution
+        : is_of_group(line.kind)     ? (line.of_all_members ? kFromMembers : kFromAttribution)
         : is_by_influence(line.kind) ? kFromInfluence
                                      : kFromClasses);
   row({"total", "", ""}, t.total.axes, kFromClasses);

@@ -96,6 +96,8 @@ Json level_json(const BudgetStudy& s, const BudgetLevel& l, double probability) 
                {"probability", probability}};
   json.update(interval_json(l.level));
   json["by_rule"] = number_json(l.by_rule);
+  json["by_rule_low"] = number_json(l.rule_interval.low);
+  json["by_rule_high"] = number_json(l.rule_interval.high);
   if (l.integrated) json["integrated"] = number_json(*l.integrated);
   json["rule_is"] = to_string(l.standing);
   json["source"] = kFromMembers;
@@ -143,11 +145,21 @@ Json budget_json(const BudgetStudy& s, const Budget& b) {
                                      {"gain", r.gain()},
                                      {"gain_low", number_json(r.interval.low)},
                                      {"gain_high", number_json(r.interval.high)},
-                                     {"source", kFromAttribution}});
+                                     {"members", r.members},
+                                     {"source", source_of(b, r)}});
   if (!b.parts.empty()) json["parts"] = tree_json(b);
   if (!b.jitter.empty()) json["jitter"] = jitter_json(s, b);
   if (!b.spectral.empty()) json["spectra"] = spectra_json(b);
   return json;
+}
+
+// Where the members are too few for an upper end, the gain may be any more.
+std::string gain_text(const BudgetStudy& s, const ErrorReduction& r) {
+  if (!std::isfinite(r.interval.low)) return "";
+  if (!std::isfinite(r.interval.high))
+    return fmt::format(" ({} or more; {} members are too few to say how much)", budget_value(s, r.interval.low),
+                       r.members);
+  return fmt::format(" ({} to {})", budget_value(s, r.interval.low), budget_value(s, r.interval.high));
 }
 
 class BudgetVerb : public Verb {
@@ -377,10 +389,7 @@ class BudgetVerb : public Verb {
       std::size_t widest = 0;
       for (const ErrorReduction& r : b.reductions) widest = std::max(widest, r.name.size());
       for (const ErrorReduction& r : b.reductions)
-        tell("  {:<{}}  {:<20} takes off {}{}\n", r.name, widest, r.action, budget_value(s, r.gain()),
-             std::isfinite(r.interval.low)
-                 ? fmt::format(" ({} to {})", budget_value(s, r.interval.low), budget_value(s, r.interval.high))
-                 : "");
+        tell("  {:<{}}  {:<20} takes off {}{}\n", r.name, widest, r.action, budget_value(s, r.gain()), gain_text(s, r));
     }
     tell_warnings(s.warnings, s.command, s.mechanism);
     tell("  report: {}\n", (out.path() / "report.html").string());
