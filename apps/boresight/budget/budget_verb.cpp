@@ -157,7 +157,7 @@ Json budget_json(const BudgetStudy& s, const Budget& b) {
 std::string gain_text(const BudgetStudy& s, const ErrorReduction& r) {
   if (!std::isfinite(r.interval.low)) return "";
   if (!std::isfinite(r.interval.high))
-    return fmt::format(" ({} or more; {} members are too few to say how much)", budget_value(s, r.interval.low),
+    return fmt::format(" (from {}; {} members are too few to say up to what)", budget_value(s, r.interval.low),
                        r.members);
   return fmt::format(" ({} to {})", budget_value(s, r.interval.low), budget_value(s, r.interval.high));
 }
