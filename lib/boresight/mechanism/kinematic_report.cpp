@@ -217,14 +217,15 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
       report.redundant_rows = rank.rows - report.rank;
       report.mobility = rank.columns - report.rank;
     }
-    const RankAnalysis r = analyse_rank(mechanism, driven);
+    const RankAnalysis r = analyse_rank(mechanism, driven, false);
     ConditioningSample sample{t, r.weakest, 0.0, 0.0};
     const bool singular = r.weakest < kSingular * r.largest;
     if (singular) {
       if (!inside_singular)
         report.lost.push_back({t,
                                '"' + m.bodies[mechanism.boresight_body()].name + "\" " +
-                                   describe_motion(mechanism, r.least_resisted, mechanism.boresight_body()) +
+                                   describe_motion(mechanism, analyse_rank(mechanism, driven).least_resisted,
+                                                   mechanism.boresight_body()) +
                                    " while every drive stands still",
                                r.weakest / r.largest});
     } else {
