@@ -244,13 +244,23 @@ IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameter
 }
 
 std::string doubt_of(const IdealMotion& motion) {
-  if (!(motion.error() > IdealMotion::kAccuracy)) return "";
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "the ideal motion is known to %.1e of the mechanism's size, not to %.0e as it was sought; so are the "
-                "deviations from it",
-                motion.error(), IdealMotion::kAccuracy);
-  return text;
+  std::string doubt;
+  char text[250];
+  if (motion.error() > IdealMotion::kAccuracy) {
+    std::snprintf(text, sizeof text,
+                  "the ideal motion is known to %.1e of the mechanism's size, not to %.0e as it was sought; so are the "
+                  "deviations from it",
+                  motion.error(), IdealMotion::kAccuracy);
+    doubt = text;
+  }
+  if (motion.lost().empty()) return doubt;
+  const LostMotion& first = motion.lost().front();
+  const std::size_t more = motion.lost().size() - 1;
+  std::snprintf(text, sizeof text, "%sthe motion passes a singular pose at t = %.4g s%s: ", doubt.empty() ? "" : "; ", first.t,
+                more == 0 ? "" : (", and " + std::to_string(more) + (more == 1 ? " other" : " others")).c_str());
+  return doubt + text + first.description +
+         ". The drawn mechanism is taken to go on smoothly; a real one may change to another branch there, and no "
+         "figure here counts that in";
 }
 
 IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& parameters, const SimulationSize& most) {

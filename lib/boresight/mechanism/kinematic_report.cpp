@@ -17,9 +17,6 @@
 namespace boresight {
 namespace {
 
-// Below this share of the largest singular value a pose is called singular: locks that weak are moved by play and
-// elasticity by more than they hold.
-constexpr double kSingular = 1e-6;
 // Poses are looked at once in so many states of the ideal motion's table, where its fastest vibration turns by about half a radian;
 // and so many at most.
 constexpr int kKnotsBetweenPoses = 8, kMostPoses = 2001;
@@ -221,12 +218,7 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
     ConditioningSample sample{t, r.weakest, 0.0, 0.0};
     const bool singular = r.weakest < kSingular * r.largest;
     if (singular) {
-      if (!inside_singular)
-        report.lost.push_back({t,
-                               '"' + m.bodies[mechanism.boresight_body()].name + "\" " +
-                                   describe_motion(mechanism, r.least_resisted, mechanism.boresight_body()) +
-                                   " while every drive stands still",
-                               r.weakest / r.largest});
+      if (!inside_singular) report.lost.push_back(lost_motion(mechanism, driven, t, false));
     } else {
       driven.set_redundant(r.rank < r.rows);
       if (driven.factor(weight)) conditioning(mechanism, driven, weight, sample);
@@ -234,6 +226,15 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
     inside_singular = singular;
     report.along.push_back(sample);
   }
+  // And those that lie between.
+  if (ideal)
+    for (const LostMotion& between : ideal->lost()) {
+      const auto near = [&](const LostMotion& other) {
+        return std::abs(other.t - between.t) < mechanism.duration() / (samples - 1);
+      };
+      if (std::none_of(report.lost.begin(), report.lost.end(), near)) report.lost.push_back(between);
+    }
+  std::sort(report.lost.begin(), report.lost.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
   for (const LostMotion& lost : report.lost)
     report.findings.push_back("singular at t = " + number(lost.t) + " s: " + lost.description);
   if (report.redundant_rows > 0)

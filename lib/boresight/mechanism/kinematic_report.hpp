@@ -4,15 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "boresight/mechanism/lost_motion.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 
 namespace boresight {
-
-struct LostMotion {
-  double t = 0.0;           // [s]
-  std::string description;  // "platform turns about (0, 0, 1) while every drive stands still"
-  double measure = 0.0;     // smallest singular value over the largest, lengths scaled; 0 at the singularity
-};
 
 struct ConditioningSample {
   double t = 0.0;
