@@ -235,6 +235,12 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
       if (std::none_of(report.lost.begin(), report.lost.end(), near)) report.lost.push_back(between);
     }
   std::sort(report.lost.begin(), report.lost.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+  const bool jointed = std::any_of(m.joints.begin(), m.joints.end(),
+                                   [](const JointDescription& j) { return j.type != JointType::fixed; });
+  if (report.mobility == 0 && report.drives == 0 && jointed && !m.motion.pose)
+    report.findings.push_back(
+        "nothing can move: the joints together leave no freedom, and none is driven; if they should, axes that are meant "
+        "to be parallel or to meet may differ by a little");
   for (const LostMotion& lost : report.lost)
     report.findings.push_back("singular at t = " + number(lost.t) + " s: " + lost.description);
   if (report.redundant_rows > 0)
