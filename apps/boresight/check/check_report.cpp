@@ -15,6 +15,7 @@
 #include "boresight/play/joint_play.hpp"
 #include "boresight/rungs/pressed_through.hpp"
 #include "boresight_analyses/study/overrun_play.hpp"
+#include "check/unlikely_masses.hpp"
 #include "report_parts/report_parts.hpp"
 #include "results/summary.hpp"
 #include "terminal/interruption.hpp"
@@ -304,6 +305,7 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
       result.findings.push_back(fmt::format("at t = {:.4g} s: {}", lost.t, lost.description));
     if (!k.feasible) result.findings.emplace_back("the ideal motion cannot be followed to its end");
   }
+  for (std::string& sentence : unlikely_inertias(mechanism)) result.notes.push_back(std::move(sentence));
   if (sound) {
     try {
       add_growth_notes(mechanism, result);
