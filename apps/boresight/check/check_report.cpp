@@ -66,6 +66,7 @@ report::Panels conditioning_panels(const KinematicReport& k) {
       .y = {"smallest singular value", ""}};
   smallest.series = {{.name = "smallest singular value", .x = t, .y = singular}};
   for (const LostMotion& lost : k.lost) smallest.lines.push_back({'x', lost.t, "singular"});
+  for (const double passed : k.passed) smallest.lines.push_back({'x', passed, "singular"});
   report::Panels panels{.title = "Distance from singular poses along the motion", .caption = {}, .columns = 2};
   if (has_conditioning(k)) panels.panels.push_back(std::move(inverse));
   panels.panels.push_back(std::move(smallest));
@@ -314,9 +315,19 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
       result.findings.emplace_back(error.what());
     }
   }
-  if (sound && mechanism.clearances() > 0) {
+  if (sound && (mechanism.clearances() > 0 || k.along.empty())) {
     try {
       const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
+      if (k.along.empty()) {
+        look_along(mechanism, ideal, result.kinematics);
+        if (!k.passed.empty())
+          result.notes.push_back(fmt::format(
+              "the motion passes a singular pose at t = {:.4g} s{}, where its joints hold one motion less; it is taken "
+              "to "
+              "go on smoothly, and rungs other than multibody may end there",
+              k.passed.front(), k.passed.size() > 1 ? fmt::format(", and {} more", k.passed.size() - 1) : ""));
+      }
+      if (mechanism.clearances() == 0) return result;
       add_play_findings(mechanism, ideal, result);
       for (const std::string& sentence : overrun_plays(mechanism, mechanism.parameters(), ideal))
         result.findings.push_back(sentence);
@@ -359,9 +370,10 @@ report::Document check_report(const Command& command, const Mechanism& mechanism
                                 .value = worst(&ConditioningSample::position),
                                 .note = "1 is best; at 0 the drives lose a motion"});
     } else {
-      document.facts.push_back({.label = "Distance from losing a motion",
-                                .value = worst(&ConditioningSample::smallest_singular_value),
-                                .note = "0 where the drives lose one"});
+      document.facts.push_back(
+          {.label = "Distance from losing a motion",
+           .value = worst(&ConditioningSample::smallest_singular_value),
+           .note = k.free_freedoms > 0 ? "0 where the joints lose one" : "0 where the drives lose one"});
     }
   }
   // A play that cannot move has no step.

@@ -13,11 +13,8 @@ namespace {
 
 // Looked at once in so many states of the motion's table, where its fastest vibration turns by about a quarter of a radian.
 constexpr int kKnotsBetweenLooks = 4, kFewestLooks = 128, kMostLooks = 4000;
-// Where a lock falls to zero between looks, one of them finds it this share of what a neighbour finds, or less: a third, where it falls in straight lines.
-constexpr double kDip = 0.5;
 // A lock this far from zero in a dip is none that its singular value would call lost.
 constexpr double kHeld = 100.0 * kSingular;
-constexpr int kNarrowings = 48;  // by the golden section: a dip is found to 1e-10 of the time between looks
 
 class Locks {
  public:
@@ -37,22 +34,6 @@ class Locks {
     return weakest_lock(mechanism_, system_);
   }
 
-  // The time from t0 to t1 at which least is held.
-  double weakest_between(double t0, double t1) {
-    constexpr double kShare = 1.0 / std::numbers::phi;
-    double early = t1 - kShare * (t1 - t0), late = t0 + kShare * (t1 - t0);
-    double at_early = at(early), at_late = at(late);
-    for (int k = 0; k < kNarrowings; ++k)
-      if (at_early < at_late) {
-        t1 = late, late = early, at_late = at_early;
-        at_early = at(early = t1 - kShare * (t1 - t0));
-      } else {
-        t0 = early, early = late, at_early = at_late;
-        at_late = at(late = t0 + kShare * (t1 - t0));
-      }
-    return 0.5 * (t0 + t1);
-  }
-
   LostMotion lost_at(double t) {
     at(t);
     return lost_motion(mechanism_, system_, t, mechanism_.description().motion.pose.has_value());
@@ -67,6 +48,27 @@ class Locks {
 };
 
 }  // namespace
+
+bool may_be_zero_near(double here, double before, double after) {
+  constexpr double kDip = 0.5;  // a third of the larger one, where it falls in straight lines
+  return here <= std::min(before, after) && here <= kDip * std::max(before, after);
+}
+
+double weakest_between(double t0, double t1, const std::function<double(double)>& lock) {
+  constexpr double kShare = 1.0 / std::numbers::phi;
+  constexpr int kNarrowings = 48;  // to 1e-10 of the time between
+  double early = t1 - kShare * (t1 - t0), late = t0 + kShare * (t1 - t0);
+  double at_early = lock(early), at_late = lock(late);
+  for (int k = 0; k < kNarrowings; ++k)
+    if (at_early < at_late) {
+      t1 = late, late = early, at_late = at_early;
+      at_early = lock(early = t1 - kShare * (t1 - t0));
+    } else {
+      t0 = early, early = late, at_early = at_late;
+      at_late = lock(late = t0 + kShare * (t1 - t0));
+    }
+  return 0.5 * (t0 + t1);
+}
 
 double weakest_lock(const Mechanism& mechanism, const ConstraintSystem& evaluated) {
   const Eigen::SparseMatrix<double> J =
@@ -101,8 +103,10 @@ std::vector<LostMotion> lost_motions(const Mechanism& mechanism, const IdealMoti
   double found_until = -1.0;
   for (int k = 0; k <= looks; ++k) {
     const int before = std::max(k - 1, 0), after = std::min(k + 1, looks);
-    if (lock[k] > std::min(lock[before], lock[after]) || lock[k] > kDip * std::max(lock[before], lock[after])) continue;
-    const double t = lock[k] < kSingular ? time(k) : locks.weakest_between(time(before), time(after));
+    if (!may_be_zero_near(lock[k], lock[before], lock[after])) continue;
+    const double t = lock[k] < kSingular
+                         ? time(k)
+                         : weakest_between(time(before), time(after), [&](double at) { return locks.at(at); });
     if (t <= found_until || locks.at(t) > kHeld) continue;
     LostMotion one = locks.lost_at(t);
     if (!(one.measure < kSingular)) continue;

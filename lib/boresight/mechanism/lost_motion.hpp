@@ -2,6 +2,7 @@
 // ways than one.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,11 @@ inline constexpr double kSingular = 1e-6;
 // How well the rows hold what they hold least, of the size of the smallest singular value over the largest and zero with it, redundant or
 // not: for a small part of the time of singular values. `evaluated`: a system on which evaluate() was called at the pose.
 double weakest_lock(const Mechanism& mechanism, const ConstraintSystem& evaluated);
+
+// Whether a lock may fall to zero beside a time at which it is looked at, seen before and after it too; and the time from t0 to t1 at which it
+// is weakest, by the golden section.
+bool may_be_zero_near(double here, double before, double after);
+double weakest_between(double t0, double t1, const std::function<double(double)>& lock);
 
 // The motion that the rows resist least. with_pose: the prescribed pose of a body is among what holds it.
 LostMotion lost_motion(const Mechanism& mechanism, const ConstraintSystem& evaluated, double t, bool with_pose);

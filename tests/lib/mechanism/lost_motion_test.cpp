@@ -41,7 +41,9 @@ TEST_P(ChangePoint, IsPassedOnTheBranchThatGoesOnSmoothly) {
   for (const Case& c : {Case{"2*pi*t", [](double t) { return 2.0 * std::numbers::pi * t; }, {0.25}},
                         Case{"5*t", [](double t) { return 5.0 * t; }, {pi / 10.0}},
                         Case{"pi*t", [](double t) { return std::numbers::pi * t; }, {0.5}},
-                        Case{"7*pi*t", [](double t) { return 7.0 * std::numbers::pi * t; }, {1.0 / 14.0, 3.0 / 14.0, 5.0 / 14.0, 0.5}}}) {
+                        Case{"7*pi*t",
+                             [](double t) { return 7.0 * std::numbers::pi * t; },
+                             {1.0 / 14.0, 3.0 / 14.0, 5.0 / 14.0, 0.5}}}) {
     const auto mechanism = scenes::build(scenes::four_bar(kParallelogram, GetParam(), c.law));
     const IdealMotion motion = ideal_motion(*mechanism, mechanism->parameters());
     EXPECT_LT(off_parallel(motion, c.angle), 1e-8) << c.law;
@@ -66,6 +68,28 @@ TEST(LostMotions, AreNoneOfALoopThatComesNearOneOnly) {
   EXPECT_EQ(doubt_of(motion), "");
   const auto paper = scenes::build(scenes::rrcpr());
   EXPECT_TRUE(ideal_motion(*paper, paper->parameters()).lost().empty());
+}
+
+TEST(AFreeMotion, IsLookedAtForSingularPosesToo) {
+  MechanismDescription m = scenes::four_bar(kParallelogram, true, "t");
+  m.joints[0].driven = false;
+  m.motion.drives.clear();
+  m.motion.duration = 0.3;
+  m.initial_rates.push_back({0, InitialRateDescription::Freedom::angle, 8.0, {}});
+  const auto mechanism = scenes::build(m);
+  const IdealMotion motion = ideal_motion(*mechanism, mechanism->parameters());
+  KinematicReport report = analyse_kinematics(*mechanism);
+  EXPECT_TRUE(report.along.empty());
+  look_along(*mechanism, motion, report);
+  EXPECT_EQ(report.along.size(), 201u);
+  ASSERT_EQ(report.passed.size(), 1u);
+  EXPECT_NEAR(motion.body(report.passed[0], 0).p.z(), 0.0, 1e-6);  // the crank lies in the line of the ground's pivots
+  m.motion.duration = 0.1;
+  const auto before = scenes::build(m);
+  KinematicReport sound = analyse_kinematics(*before);
+  look_along(*before, ideal_motion(*before, before->parameters()), sound);
+  EXPECT_TRUE(sound.passed.empty());
+  EXPECT_GT(sound.along.back().smallest_singular_value, 1e-3);
 }
 
 TEST(ALawWithAKink, IsFollowedThroughItFarFromASingularPose) {
