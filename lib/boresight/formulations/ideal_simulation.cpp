@@ -269,7 +269,8 @@ std::string doubt_of(const IdealMotion& motion) {
   if (motion.lost().empty()) return doubt;
   const LostMotion& first = motion.lost().front();
   const std::size_t more = motion.lost().size() - 1;
-  std::snprintf(text, sizeof text, "%sthe motion passes a singular pose at t = %.4g s%s: ", doubt.empty() ? "" : "; ", first.t,
+  std::snprintf(text, sizeof text, "%sthe motion passes a singular pose at t = %.4g s%s: ", doubt.empty() ? "" : "; ",
+                first.t,
                 more == 0 ? "" : (", and " + std::to_string(more) + (more == 1 ? " other" : " others")).c_str());
   return doubt + text + first.description +
          ". The drawn mechanism is taken to go on smoothly; a real one may change to another branch there, and no "
@@ -311,10 +312,11 @@ IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& param
         "well it is known; shorten motion.duration to what has to be seen");
   if (failure.too_long) {
     char text[250];
-    std::snprintf(text, sizeof text,
-                  "the ideal motion of %.6g s, simulated without clearance, is too long to follow: it takes more than %d "
-                  "steps; shorten motion.duration to what has to be seen",
-                  mechanism.duration(), most.explicit_steps);
+    std::snprintf(
+        text, sizeof text,
+        "the ideal motion of %.6g s, simulated without clearance, is too long to follow: it takes more than %d "
+        "steps; shorten motion.duration to what has to be seen",
+        mechanism.duration(), most.explicit_steps);
     throw ComputationError(text);
   }
   if (!failure.reason.empty())

@@ -143,7 +143,8 @@ void set_rates(const Mechanism& mechanism, ConstraintSystem& system, const FreeC
   const VecX u = nearest_motion(A, b, row, VecX::Zero(row.rows()));
   if ((A * u - b).norm() > 1e-8 * b.norm()) {
     if (!rates.empty() && constraint_rank(mechanism, system) == 6 * mechanism.bodies())
-      throw InputError(rates.front().origin, "initial.rates", "rates where the joints together leave nothing free to move",
+      throw InputError(rates.front().origin, "initial.rates",
+                       "rates where the joints together leave nothing free to move",
                        "joints that leave some motion; axes meant to be parallel or to meet may differ by a little");
     throw InputError(rates.empty() ? mechanism.description().motion.origin : rates.front().origin,
                      rates.empty() ? "motion" : "initial.rates", "rates that contradict each other or the joints",
