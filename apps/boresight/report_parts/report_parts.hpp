@@ -20,7 +20,8 @@ namespace boresight::app {
 struct Overlay {
   std::string name;  // "0.1 mm"
   const RunResult* result = nullptr;
-  std::function<std::string(const IndexChoice&)> stated = {};  // "± 2.3 %" of an index, or nothing; none: nobody measured
+  std::function<std::string(const IndexChoice&)> stated =
+      {};  // "± 2.3 %" of an index, or nothing; none: nobody measured
 };
 
 // Curves keep about this many points each; spikes are never lost (report::thinned).

@@ -254,8 +254,7 @@ class RunVerb : public Verb {
                    step_error_sentence(measured, result.index, index, mechanism->characteristic_length()));
     for (const std::string& warning : material_warnings(assumed_by(command, *mechanism)))
       document.warnings.push_back(warning);
-    const auto accuracy =
-        cut_short ? std::optional<AccuracyAsked>{} : accuracy_asked(command, choice, result, index);
+    const auto accuracy = cut_short ? std::optional<AccuracyAsked>{} : accuracy_asked(command, choice, result, index);
     if (accuracy) summary["accuracy"] = accuracy_json(*accuracy);
     if (parts) {
       summary["parts"] = parts_json(*parts);

@@ -1,8 +1,8 @@
 #include "boresight/multibody/multibody_start.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Eigenvalues>
 #include <deque>
 #include <limits>
 #include <memory>

@@ -170,7 +170,9 @@ void expect_rest(const char* text, double boresight) {
   EXPECT_EQ(rest.refusal, "");
 }
 
-TEST(RestOnLightContacts, OfASleeveBehindAGuideWhoseLoadActsJustBeyondItsEnd) { expect_rest(kGuideThenSleeve, 2.09041e-3); }
+TEST(RestOnLightContacts, OfASleeveBehindAGuideWhoseLoadActsJustBeyondItsEnd) {
+  expect_rest(kGuideThenSleeve, 2.09041e-3);
+}
 
 TEST(RestOnLightContacts, OfASleeveThatTiltsBehindOne) { expect_rest(kGuideThenTiltingSleeve, 4.5926e-3); }
 
