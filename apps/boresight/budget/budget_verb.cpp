@@ -30,7 +30,7 @@ namespace boresight::app {
 namespace {
 
 // Errors of this size are rounding, in m or rad: a budget of them says nothing.
-constexpr double kNextToNothing = 1e-9;
+constexpr double kNextToNothing = 1e-11;
 
 struct RunsSeen {
   Failures failures;

@@ -74,7 +74,7 @@ void print_errors(const CheckResult& result) {
   });
   for (std::size_t k = 0; k < std::min(kShown, order.size()); ++k) {
     const ErrorEffect& e = *order[k];
-    tell("  error.{} of {}: boresight off by up to {}, position by {}\n", e.name, readable(e.value, e.unit),
+    tell("  error.{} of {}: boresight off by up to {}, position by {}\n", e.name, readable_of_error(e.value, e.unit),
          readable(e.boresight * std::abs(e.value), "rad"), readable(e.position * std::abs(e.value), "m"));
   }
   if (order.size() < result.errors.size() || order.size() > kShown)

@@ -13,6 +13,8 @@ std::string readable(double value, const std::string& si_unit);
 // In the unit that the user wrote ("arcsec"), unless the number is long or full of zeros there; "": readable().
 std::string readable_as(double value, const std::string& si_unit, const std::string& written);
 
+// The value of a standing error in its unit ("m", "rad", "K"); of a scale, "1", in ppm or percent.
+std::string readable_of_error(double value, const std::string& said_unit);
 std::string readable_arcsec(double radians);
 std::string readable_share(double share);     // 0.937 is "93.7 %"
 std::string readable_error(double relative);  // as a share, or in words where it is many times the value itself

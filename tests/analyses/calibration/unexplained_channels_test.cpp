@@ -12,7 +12,7 @@ namespace unexplained_channels_test {
 using testing::HasSubstr;
 
 // Two rotations of one run: what the model foretells of them, by pose.
-const std::vector<int> kBxAndBy = {3, 4};
+const std::vector<int> kBxAndBy = {6, 7};
 
 struct Readings {
   CalibrationProblem problem;
@@ -66,7 +66,7 @@ TEST(UnexplainedChannels, AreASensorThatStandsStillAndOneWithTheOtherSign) {
     readings.add(1, 1e-4, factor, 0.0);
     const std::vector<UnexplainedChannel> found = readings.found();
     ASSERT_EQ(found.size(), 1u) << factor;
-    EXPECT_EQ(found[0].channel, 4);
+    EXPECT_EQ(found[0].channel, 7);
     EXPECT_THAT(found[0].says, HasSubstr("by: the model moves as much as the fit leaves")) << factor;
   }
 }
@@ -78,7 +78,7 @@ TEST(UnexplainedChannels, AreReadingsWhoseHeaderHasAnotherUnit) {
     readings.add(1, 1e-4, 1.0, 5e-6);
     const std::vector<UnexplainedChannel> found = readings.found();
     ASSERT_EQ(found.size(), 1u) << factor;
-    EXPECT_EQ(found[0].channel, 3);
+    EXPECT_EQ(found[0].channel, 6);
     EXPECT_THAT(found[0].says, HasSubstr("another unit than the header says")) << factor;
   }
 }

@@ -25,8 +25,15 @@ TEST(Readable, UsesTheUnitsPeopleRead) {
 
 TEST(Readable, ZeroAndRoundingAreSaidPlainly) {
   EXPECT_EQ(readable(0.0, "m"), "0 mm");
-  EXPECT_EQ(readable(2.9e-12, "rad"), "below 0.1 nrad");
-  EXPECT_EQ(readable_arcsec(2.9e-12), "below 0.0001 arcsec");
+  EXPECT_EQ(readable(2.9e-13, "rad"), "below 1 prad");
+  EXPECT_EQ(readable_arcsec(2.9e-13), "below 0.000001 arcsec");
+}
+
+TEST(Readable, AMilliarcsecondAndLessIsANumber) {
+  EXPECT_EQ(readable(4.85e-9, "rad"), "4.85 nrad");
+  EXPECT_EQ(readable(3.366e-11, "rad"), "33.7 prad");
+  EXPECT_EQ(readable(-5e-12, "m"), "-5 pm");
+  EXPECT_EQ(readable_arcsec(3.366e-11), "6.94e-06 arcsec");
 }
 
 TEST(Readable, StaysInTheUnitThatTheUserWrote) {
@@ -39,6 +46,13 @@ TEST(Readable, StaysInTheUnitThatTheUserWrote) {
   EXPECT_EQ(readable_as(INFINITY, "rad", "arcsec"), "not known");
   EXPECT_EQ(readable_as(2.5e-4, "rad", "ppm"), "250 ppm");  // a scale
   EXPECT_DOUBLE_EQ(display_unit_as("rad", 1e-4, "arcsec").per_si * arcsec, 1.0);
+}
+
+TEST(Readable, AScaleIsAShare) {
+  EXPECT_EQ(readable_of_error(2.5e-4, "1"), "250 ppm");
+  EXPECT_EQ(readable_of_error(-3e-5, "1"), "-30 ppm");
+  EXPECT_EQ(readable_of_error(2e-3, "1"), "0.2 %");
+  EXPECT_EQ(readable_of_error(2.5e-4, "rad"), "0.25 mrad");
 }
 
 TEST(Readable, ArcsecondsAndShares) {
