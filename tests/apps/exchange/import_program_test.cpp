@@ -83,6 +83,13 @@ TEST_F(ImportProgram, WhatIsWrongWithAnOptionIsOneLine) {
   }
 }
 
+TEST_F(ImportProgram, AnAxisThatIsNoneIsNamed) {
+  write("gimbal.urdf", kGimbal);
+  const Ended import = call({"import", "gimbal.urdf", "--to", "out.toml", "--boresight", "camera:q"});
+  EXPECT_EQ(import.status, 2);
+  EXPECT_THAT(import.err, HasSubstr("\"q\" as the axis of camera, expected x, y, z"));
+}
+
 TEST_F(ImportProgram, ALinkHeldAtTheEndLeavesALoop) {
   write("gimbal.urdf", kGimbal);
   const Ended import = call({"import", "gimbal.urdf", "--ground", "camera", "--drive", "none"});
