@@ -83,7 +83,8 @@ class Assembler {
     if (part >= 0) return part;
     if (const std::size_t colon = name.rfind(':');
         colon != std::string::npos && part_named(drawing_, name.substr(0, colon)) >= 0)
-      throw InputError(kCommandLine, option, "\"" + name.substr(colon + 1) + "\" as the axis of " + name.substr(0, colon),
+      throw InputError(kCommandLine, option,
+                       "\"" + name.substr(colon + 1) + "\" as the axis of " + name.substr(0, colon),
                        "x, y, z, -x, -y or -z");
     std::vector<std::string> names;
     for (const Part& p : drawing_.parts) names.push_back(p.name);

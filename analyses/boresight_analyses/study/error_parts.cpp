@@ -35,7 +35,11 @@ std::string taken_up_by_play(const MechanismDescription& mechanism, std::size_t 
   return name +
          " is taken up by play, so that what it does hangs on where all journals rest; a run with it and one with "
          "--set " +
-         name + "=0" + (unit == "rad" ? "mrad" : unit == "1" ? "ppm" : unit) + " tell";
+         name + "=0" +
+         (unit == "rad" ? "mrad"
+          : unit == "1" ? "ppm"
+                        : unit) +
+         " tell";
 }
 
 ErrorColumns::ErrorColumns(const Mechanism& mechanism, const IdealMotion& commanded)

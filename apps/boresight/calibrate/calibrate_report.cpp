@@ -25,9 +25,9 @@ std::string interval_of(const ParameterEstimate& e) { return known_to(e.low, e) 
 std::string names_of(const std::vector<UnexplainedChannel>& channels) {
   std::string names;
   for (std::size_t k = 0; k < channels.size(); ++k)
-    names += (k == 0                        ? ""
+    names += (k == 0                     ? ""
               : k + 1 == channels.size() ? " or "
-                                            : ", ") +
+                                         : ", ") +
              std::string(channel_names()[static_cast<std::size_t>(channels[k].channel)].name);
   return names;
 }

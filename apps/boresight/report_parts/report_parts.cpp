@@ -96,7 +96,7 @@ report::Panels motion_panels(const Mechanism& mechanism, const std::vector<Overl
       .title = "Motion of the " + overlays.front().result->boresight.name, .caption = caption, .columns = 3};
   for (int k = 0; k < 3; ++k)
     panels.panels.push_back(panel(
-        std::string("Displacement ") + kAxisName[k], {kAxisName[k], "mm"}, overlays, 1e3,
+        std::string("Position ") + kAxisName[k], {kAxisName[k], "mm"}, overlays, 1e3,
         [k](const PoseSample& s) { return s.pose.p[k]; }, [k](const PoseSample& s) { return s.ideal.p[k]; }));
 
   const Mat3& home = mechanism.description().bodies[mechanism.boresight_body()].axes;
@@ -208,18 +208,18 @@ constexpr const char* kStated =
     " ±: what steps do and what the rung leaves out, of each figure by itself, where that was measured.";
 
 report::Table index_table(const std::vector<Overlay>& overlays) {
-  report::Table table{
-      .title = "Indices",
-      .caption = "Statistics over time, from every accepted step. Angles also in arcseconds." +
-                 (!overlays.empty() && overlays.front().stated ? std::string(kStated) : "") + definitions(overlays),
-      .columns = {{"Motion"},
-                  {"Error"},
-                  {"Maximum"},
-                  {"at", "s"},
-                  {"RMS"},
-                  {"Mean"},
-                  {"99.73 % below"},
-                  {"Maximum in arcseconds"}}};
+  report::Table table{.title = "Indices",
+                      .caption = "Statistics over time, from every accepted step. Angles also in arcseconds." +
+                                 (!overlays.empty() && overlays.front().stated ? std::string(kStated) : "") +
+                                 definitions(overlays),
+                      .columns = {{"Motion"},
+                                  {"Error"},
+                                  {"Maximum"},
+                                  {"at", "s"},
+                                  {"RMS"},
+                                  {"Mean"},
+                                  {"99.73 % below"},
+                                  {"Maximum in arcseconds"}}};
   const bool one = overlays.size() == 1;
   if (one) table.columns.erase(table.columns.begin());
   for (const Overlay& overlay : overlays) {
@@ -231,7 +231,7 @@ report::Table index_table(const std::vector<Overlay>& overlays) {
             overlay.stated && *statistic != '\0' ? overlay.stated({quantity.name, statistic}) : "";
         return readable(value, quantity.si_unit) + (uncertainty.empty() ? "" : " " + uncertainty);
       };
-      std::vector<nlohmann::json> row = {overlay.name,        quantity.title,        text(s.max, "max"), s.time_of_max,
+      std::vector<nlohmann::json> row = {overlay.name,       quantity.title,       text(s.max, "max"), s.time_of_max,
                                          text(s.rms, "rms"), text(s.mean, "mean"), text(s.p9973, ""),  nullptr};
       if (std::string(quantity.si_unit) == "rad") row.back() = readable_arcsec(s.max);
       if (one) row.erase(row.begin());

@@ -20,7 +20,8 @@ namespace boresight::app {
 struct Overlay {
   std::string name;  // "0.1 mm"
   const RunResult* result = nullptr;
-  std::function<std::string(const IndexChoice&)> stated = {};  // "± 2.3 %" of an index, or nothing; none: nobody measured
+  std::function<std::string(const IndexChoice&)> stated =
+      {};  // "± 2.3 %" of an index, or nothing; none: nobody measured
 };
 
 // Curves keep about this many points each; spikes are never lost (report::thinned).
@@ -30,7 +31,7 @@ inline constexpr std::size_t kPointsPerCurve = 1500;
 // result. Of a mechanism with neither play nor errors they are what the integration leaves of its ideal motion, which is more.
 double rounding_of(const Mechanism& mechanism, const std::string& si_unit);
 
-// The twelve panels of Sun et al. Fig. 6: displacement, Z-Y-X Euler angles from home, acceleration and
+// The twelve panels of Sun et al. Fig. 6: position (their displacement), Z-Y-X Euler angles from home, acceleration and
 // angular acceleration of the boresight body, each against the ideal motion.
 report::Panels motion_panels(const Mechanism& mechanism, const std::vector<Overlay>& overlays,
                              const std::string& caption);

@@ -41,7 +41,7 @@ std::vector<report::Fact> headline(const RunResult& result, const MeasuredError&
   for (const ContactSummary& c : result.contact)
     facts.push_back({.label = c.joint + ", in contact",
                      .value = readable_share(c.contact_fraction),
-                     .note = fmt::format("{} impacts, {} at most", c.impacts, readable(c.max_force, "N"))});
+                     .note = fmt::format("{}, {} at most", how_many(c.impacts, "impact"), readable(c.max_force, "N"))});
   facts.push_back({.label = "Peak acceleration",
                    .value = readable(result.platform_acceleration_max.maxCoeff(), "m/s^2"),
                    .note = "largest of the three axes"});
@@ -254,7 +254,8 @@ report::Section model_section(const Mechanism& mechanism, const std::string& lea
     table.rows.push_back({other.rung, change(a.position_error.max, b.position_error.max, "m"),
                           change(a.position_error.rms, b.position_error.rms, "m"),
                           change(a.boresight_error.max, b.boresight_error.max, "rad"),
-                          change(a.boresight_error.rms, b.boresight_error.rms, "rad"), 1e3 * other.result.cost.cpu_seconds,
+                          change(a.boresight_error.rms, b.boresight_error.rms, "rad"),
+                          1e3 * other.result.cost.cpu_seconds,
                           error_cell(other.result.error.model_of(PointingQuantity::position_error)),
                           error_cell(other.result.error.model_of(PointingQuantity::boresight_error)), ""});
   }
@@ -324,8 +325,8 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
     report::Section motion{.id = "motion", .title = "Motion"};
     if (!result.frames.empty()) motion.items.push_back(mechanism_view(mechanism, result));
     motion.items.push_back(motion_panels(mechanism, overlay,
-                                         "Displacement of the centre of mass, Z-Y-X Euler angles from home, and "
-                                         "accelerations in world axes."));
+                                         "Position of the centre of mass in the world, Z-Y-X Euler angles from home, "
+                                         "and accelerations in world axes."));
     document.sections.push_back(std::move(motion));
   }
   if (mechanism.clearances() > 0) {

@@ -232,11 +232,12 @@ report::Document sweep_report(const Command& command, const Study& study, const 
       document.sections.push_back(
           {.id = "motion",
            .title = "Motion, point over point",
-           .items = {motion_panels(mechanism, drawn,
-                                   std::string("Displacement of the centre of mass, Z-Y-X Euler angles from home, "
-                                               "accelerations in world axes") +
-                                       (papers ? ": the twelve panels of Sun et al., Fig. 6 and Fig. 7." : ".")),
-                     difference_panels(mechanism, drawn), error_panels(mechanism, drawn)}});
+           .items = {
+               motion_panels(mechanism, drawn,
+                             std::string("Position of the centre of mass in the world, Z-Y-X Euler angles from home, "
+                                         "accelerations in world axes") +
+                                 (papers ? ": the twelve panels of Sun et al., Fig. 6 and Fig. 7." : ".")),
+               difference_panels(mechanism, drawn), error_panels(mechanism, drawn)}});
     document.sections.push_back(contact_section(mechanism, plan, result, overlays));
     if (papers) {
       const std::vector<PublishedFinding> published = published_findings(mechanism, plan, result);

@@ -28,7 +28,8 @@ struct Scale {
 // Largest first. The second one is what a zero is said in.
 const std::map<std::string, std::vector<Scale>> kScales = {
     {"m", {{"m", 1.0, 1.0}, {"mm", 1e-3, 0.9e-4}, {"µm", 1e-6, 1e-7}, {"nm", 1e-9, 1e-10}, {"pm", 1e-12, 0.0}}},
-    {"rad", {{"rad", 1.0, 0.1}, {"mrad", 1e-3, 1e-4}, {"µrad", 1e-6, 1e-7}, {"nrad", 1e-9, 1e-10}, {"prad", 1e-12, 0.0}}},
+    {"rad",
+     {{"rad", 1.0, 0.1}, {"mrad", 1e-3, 1e-4}, {"µrad", 1e-6, 1e-7}, {"nrad", 1e-9, 1e-10}, {"prad", 1e-12, 0.0}}},
     {"N", {{"kN", 1e3, 1e3}, {"N", 1.0, 1.0}, {"mN", 1e-3, 0.0}}},
     {"m/s", {{"m/s", 1.0, 0.5}, {"mm/s", 1e-3, 1e-4}, {"µm/s", 1e-6, 0.0}}},
     {"s", {{"h", 3600.0, 5400.0}, {"min", 60.0, 90.0}, {"s", 1.0, 0.5}, {"ms", 1e-3, 1e-4}, {"µs", 1e-6, 0.0}}},
@@ -97,8 +98,18 @@ std::string readable_arcsec(double radians) {
   return digits(radians * 180.0 / std::numbers::pi * 3600.0) + " arcsec";
 }
 std::string readable_share(double share) { return std::isfinite(share) ? digits(100.0 * share) + " %" : kNotKnown; }
+std::string readable_near_all(double share) {
+  const double lacks = 100.0 * (1.0 - share);
+  if (!std::isfinite(share) || !(lacks > 1e-12)) return readable_share(share);
+  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(lacks) + 1e-9)));
+  const double per_percent = std::pow(10.0, decimals);
+  return fmt::format("{:.{}f} %", std::floor(100.0 * share * per_percent + 1e-6) / per_percent, decimals);
+}
 std::string readable_error(double relative) {
   return std::abs(relative) < kSaidAsMultiple ? readable_share(relative) : relative_text(relative);
+}
+std::string how_many(std::size_t count, const std::string& one, const std::string& several) {
+  return fmt::format("{} {}", count, count == 1 ? one : several.empty() ? one + "s" : several);
 }
 std::string readable_number(double value) { return std::isfinite(value) ? digits(value) : kNotKnown; }
 

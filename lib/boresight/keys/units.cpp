@@ -247,10 +247,10 @@ SiUnit unit_called(const char* si_unit, bool or_share) {
   const std::string_view called = si_unit;
   if (or_share && called == kAngle.unit) return kShareOrAngle;
   if (or_share && called == kLength.unit) return kShareOrLength;
-  static const SiUnit known[] = {kLength,    kMass,         kInertia,   kDuration,       kAngle,      kAngularRate,
-                                 kSpeed,     kAcceleration, kForce,     kTorque,         kStiffness,  kDamping,
-                                 kFrequency, kDensity,      kPerLength, kElasticModulus, kPerSpeed,   kTemperature,
-                                 kExpansion, kRatio};
+  static const SiUnit known[] = {kLength,         kMass,     kInertia,      kDuration,  kAngle,
+                                 kAngularRate,    kSpeed,    kAcceleration, kForce,     kTorque,
+                                 kStiffness,      kDamping,  kFrequency,    kDensity,   kPerLength,
+                                 kElasticModulus, kPerSpeed, kTemperature,  kExpansion, kRatio};
   for (const SiUnit& unit : known)
     if (called == unit.unit) return unit;
   return {"a value", si_unit, ""};

@@ -63,5 +63,20 @@ TEST(Readable, ArcsecondsAndShares) {
   EXPECT_EQ(readable_error(1e9), "over 10000 times the value itself");
 }
 
+TEST(Readable, AShareNearAllHasDigitsOfWhatItLacksAndIsRoundedDown) {
+  EXPECT_EQ(readable_near_all(0.962351), "96.2 %");
+  EXPECT_EQ(readable_near_all(0.9997319), "99.973 %");
+  EXPECT_EQ(readable_near_all(0.9973), "99.73 %");
+  EXPECT_EQ(readable_near_all(0.5), "50 %");
+  EXPECT_EQ(readable_near_all(1.0), "100 %");
+}
+
+TEST(Readable, OneIsNoPlural) {
+  EXPECT_EQ(how_many(1, "impact"), "1 impact");
+  EXPECT_EQ(how_many(0, "impact"), "0 impacts");
+  EXPECT_EQ(how_many(1, "body", "bodies"), "1 body");
+  EXPECT_EQ(how_many(2, "body", "bodies"), "2 bodies");
+}
+
 }  // namespace readable_test
 }  // namespace boresight::app

@@ -94,7 +94,7 @@ TEST_F(ImportProgram, ALinkHeldAtTheEndLeavesALoop) {
   write("gimbal.urdf", kGimbal);
   const Ended import = call({"import", "gimbal.urdf", "--ground", "camera", "--drive", "none"});
   ASSERT_EQ(import.status, 0) << import.err;
-  EXPECT_THAT(import.out, HasSubstr("1 bodies of 0.8 kg together, 2 joints, 0 of them driven"));
+  EXPECT_THAT(import.out, HasSubstr("1 body of 0.8 kg together, 2 joints, 0 of them driven"));
 }
 
 TEST_F(ImportProgram, RefusesWhatIsNoMechanism) {
