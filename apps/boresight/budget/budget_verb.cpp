@@ -30,7 +30,7 @@ namespace boresight::app {
 namespace {
 
 // Errors of this size are rounding, in m or rad: a budget of them says nothing.
-constexpr double kNextToNothing = 1e-9;
+constexpr double kNextToNothing = 1e-11;
 
 struct RunsSeen {
   Failures failures;
@@ -259,8 +259,10 @@ class BudgetVerb : public Verb {
     for (const NumberRange& range : missing) begun_with -= range.size();
     done = begun_with;
     if (!command.quiet) {
-      tell("{}: {} members on the {} rung, {} runs ({} members with {} groups held and {} clearances halved){}\n",
-           mechanism.name(), plan.members, model.rung(), runs.count(), runs.attribution(), runs.groups(), runs.joints(),
+      tell("{}: {} on the {} rung, {} ({} with {} held and {} halved){}\n", mechanism.name(),
+           how_many(plan.members, "member"), model.rung(), how_many(runs.count(), "run"),
+           how_many(runs.attribution(), "member"), how_many(runs.groups(), "group"),
+           how_many(runs.joints(), "clearance"),
            begun_with > 0 ? fmt::format(", {} of them stored already", begun_with) : "");
       std::fflush(stdout);
     }
@@ -377,9 +379,11 @@ class BudgetVerb : public Verb {
       std::size_t widest = 0;
       for (const ErrorReduction& r : b.reductions) widest = std::max(widest, r.name.size());
       for (const ErrorReduction& r : b.reductions)
-        tell("  {:<{}}  {:<20} takes off {}{}\n", r.name, widest, r.action, budget_value(s, r.gain()),
+        tell("  {:<{}}  {:<20} {} {}{}\n", r.name, widest, r.action, r.gain() < 0.0 ? "adds" : "takes off",
+             budget_value(s, std::abs(r.gain())),
              std::isfinite(r.interval.low)
-                 ? fmt::format(" ({} to {})", budget_value(s, r.interval.low), budget_value(s, r.interval.high))
+                 ? fmt::format(" ({}{} to {})", r.gain() < 0.0 ? "takes off " : "", budget_value(s, r.interval.low),
+                               budget_value(s, r.interval.high))
                  : "");
     }
     tell_warnings(s.warnings, s.command, s.mechanism);

@@ -280,13 +280,13 @@ report::Table error_table(const std::vector<ErrorEffect>& effects) {
       .columns = {{"error"}, {"position, per unit"}, {"boresight, per unit"}, {"value"}, {"position"}, {"boresight"}}};
   for (const ErrorEffect& e : effects) {
     if (!e.strain.empty()) {
-      table.rows.push_back({e.name, "strains the mechanism", "", readable(e.value, e.unit), "", ""});
+      table.rows.push_back({e.name, "strains the mechanism", "", readable_of_error(e.value, e.unit), "", ""});
       continue;
     }
-    const double small = e.unit == "K" ? 1.0 : 1e-6;  // one kelvin; one micrometre, one microradian
-    const char* per = e.unit == "K" ? " per K" : e.unit == "m" ? " per µm" : " per µrad";
+    const double small = e.unit == "K" ? 1.0 : 1e-6;  // one kelvin; one micrometre, microradian or ppm
+    const char* per = e.unit == "K" ? " per K" : e.unit == "m" ? " per µm" : e.unit == "1" ? " per ppm" : " per µrad";
     table.rows.push_back({e.name, readable(e.position * small, "m") + per, readable(e.boresight * small, "rad") + per,
-                          readable(e.value, e.unit), readable(e.position * std::abs(e.value), "m"),
+                          readable_of_error(e.value, e.unit), readable(e.position * std::abs(e.value), "m"),
                           readable(e.boresight * std::abs(e.value), "rad")});
   }
   return table;
