@@ -62,10 +62,13 @@ void print(const Command& command, const Mechanism& mechanism, const RungChoice&
   const double size = mechanism.characteristic_length();
   for (const std::string& line : error_lines(result, measured, size)) tell("  {}\n", line);
   if (result.start > 0.0) tell("  from {} on\n", readable(result.start, "s"));
-  for (const ContactSummary& c : result.contact)
-    tell("  {}: in contact {} of the time, {}, penetration up to {}, contact forces up to {}\n", c.joint,
+  for (std::size_t k = 0; k < result.contact.size(); ++k) {
+    const ContactSummary& c = result.contact[k];
+    const std::string uncertainty = force_error_text(measured, result, k);
+    tell("  {}: in contact {} of the time, {}, penetration up to {}, contact forces up to {}{}\n", c.joint,
          readable_share(c.contact_fraction), how_many(c.impacts, "impact"), readable(c.max_penetration, "m"),
-         readable(c.max_force, "N"));
+         readable(c.max_force, "N"), uncertainty.empty() ? "" : " " + uncertainty);
+  }
   if (parts)
     for (const std::string& line : parts_lines(*parts)) tell("  {}\n", line);
   // A warning says the same with what to do about it.
