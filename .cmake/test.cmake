@@ -1,7 +1,8 @@
-# boresight_test(NAME [SOURCES file...] [LINKS target...] [TIMEOUT seconds] [LONG seconds]): the program NAME and its tests, one of CTest for each.
-# SOURCES: every .cpp of the folder, where none are given. LINKS: rooms (math) or other targets. Tests with "Long" in their name are labelled so and
-# have LONG seconds instead of TIMEOUT (120). In a new build folder the files of a program are compiled in batches, which takes less than half of the
-# time; so what is not in a header stands in a namespace of its file's name.
+# boresight_test(NAME [SOURCES file...] [LINKS target...] [TIMEOUT seconds] [LONG seconds] [NIGHT seconds]): the program NAME and its tests, one of
+# CTest for each. SOURCES: every .cpp of the folder, where none are given. LINKS: rooms (math) or other targets. Tests with "Long" in their name are
+# labelled so and have LONG seconds instead of TIMEOUT (120). Those with "Night" in it run together, as Night.NAME, within NIGHT seconds and by
+# `ctest -C Night` alone. In a new build folder the files of a program are compiled in batches, which takes less than half of the time; so what is
+# not in a header stands in a namespace of its file's name.
 include(GoogleTest)
 
 # boresight_in_batches(TARGET SIZE): its files are compiled so many at once in a new build folder.
@@ -13,7 +14,7 @@ function(boresight_in_batches name size)
 endfunction()
 
 function(boresight_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 test "" "TIMEOUT;LONG" "SOURCES;LINKS")
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "TIMEOUT;LONG;NIGHT" "SOURCES;LINKS")
   if(NOT test_SOURCES)
     file(GLOB test_SOURCES CONFIGURE_DEPENDS *.cpp)
   endif()
@@ -27,9 +28,13 @@ function(boresight_test name)
   target_compile_definitions(${name} PRIVATE BORESIGHT_EXAMPLES="${boresight_SOURCE_DIR}/examples")
   boresight_in_batches(${name} 6)
   if(test_LONG)
-    gtest_discover_tests(${name} TEST_FILTER "-*Long*" PROPERTIES TIMEOUT ${test_TIMEOUT})
-    gtest_discover_tests(${name} TEST_FILTER "*Long*" TEST_LIST ${name}_long PROPERTIES TIMEOUT ${test_LONG} LABELS long COST 30)
+    gtest_discover_tests(${name} TEST_FILTER "-*Long*:*Night*" PROPERTIES TIMEOUT ${test_TIMEOUT})
+    gtest_discover_tests(${name} TEST_FILTER "*Long*-*Night*" TEST_LIST ${name}_long PROPERTIES TIMEOUT ${test_LONG} LABELS long COST 30)
   else()
-    gtest_discover_tests(${name} PROPERTIES TIMEOUT ${test_TIMEOUT})
+    gtest_discover_tests(${name} TEST_FILTER "-*Night*" PROPERTIES TIMEOUT ${test_TIMEOUT})
+  endif()
+  if(test_NIGHT)
+    add_test(NAME Night.${name} CONFIGURATIONS Night COMMAND ${name} "--gtest_filter=*Night*")
+    set_tests_properties(Night.${name} PROPERTIES TIMEOUT ${test_NIGHT})
   endif()
 endfunction()

@@ -81,6 +81,11 @@ class Assembler {
   int part_asked_for(const std::string& option, const std::string& name) const {
     const int part = part_named(drawing_, name);
     if (part >= 0) return part;
+    if (const std::size_t colon = name.rfind(':');
+        colon != std::string::npos && part_named(drawing_, name.substr(0, colon)) >= 0)
+      throw InputError(kCommandLine, option,
+                       "\"" + name.substr(colon + 1) + "\" as the axis of " + name.substr(0, colon),
+                       "x, y, z, -x, -y or -z");
     std::vector<std::string> names;
     for (const Part& p : drawing_.parts) names.push_back(p.name);
     throw InputError(kCommandLine, option, "\"" + name + "\"", "the name of a link in " + drawing_.file,

@@ -22,7 +22,7 @@ inline std::uint64_t fuzz_seed() {
   return seed;
 }
 
-// How many times as many inputs the long ones take: BORESIGHT_FUZZ_TIMES, otherwise 1. .ci/deep fuzz takes four times as many.
+// How many times as many inputs the nightly ones take: BORESIGHT_FUZZ_TIMES, otherwise 1. .ci/deep fuzz takes four times as many.
 inline int fuzz_times() {
   const char* given = std::getenv("BORESIGHT_FUZZ_TIMES");
   const int times = given != nullptr ? std::atoi(given) : 1;

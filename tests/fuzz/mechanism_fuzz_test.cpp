@@ -84,8 +84,8 @@ TEST(MechanismFuzz, DamagedFilesAreRefusedInOneLineOrHold) {
   EXPECT_GT(tally.refused, 2000);
 }
 
-// Run by `ctest -L long`.
-TEST(LongMechanismFuzz, DamagedFilesAreRefusedInOneLineOrHold) {
+// Eight times as many as above: the seed is another one every day, so that days add up to as many.
+TEST(NightMechanismFuzz, DamagedFilesAreRefusedInOneLineOrHold) {
   Tally tally;
   run_fuzz(50000 * fuzz_times(), fuzz_seed() + 100'000, tally);
 }
@@ -120,7 +120,7 @@ void run_small(int count, std::uint64_t seed) {
 }
 
 TEST(ValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) { run_small(10000, fuzz_seed()); }
-TEST(LongValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) {
+TEST(NightValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) {
   run_small(125000 * fuzz_times(), fuzz_seed() + 100'000);
 }
 

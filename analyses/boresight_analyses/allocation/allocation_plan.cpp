@@ -46,8 +46,11 @@ std::vector<AllocationOption> read_processes(Cursor& table, const AllocationEntr
     entry.only(of.is_error ? allocate_error_process_keys() : allocate_process_keys());
     const double tolerance = of.is_error ? entry.value("tolerance", unit) : entry.quantity("tolerance");
     entry.require(tolerance > 0.0, "tolerance", "more than 0");
-    entry.require(!entry.text("name").empty(), "name", "a name");
-    options.push_back({entry.text("name"), entry.number("price"), of.zone(tolerance, law)});
+    const std::string name = entry.text("name");
+    entry.require(!name.empty(), "name", "a name");
+    for (const AllocationOption& other : options)
+      if (other.name == name) entry.fail_found("name", in_quotes(name) + " a second time", "a name of its own");
+    options.push_back({name, entry.number("price"), of.zone(tolerance, law)});
     entry.finish();
   }
   if (options.empty()) table.fail("processes", "at least one { name = .., tolerance = .., price = .. }");

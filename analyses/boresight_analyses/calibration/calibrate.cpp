@@ -63,6 +63,7 @@ CalibrationResult Calibrator::run() {
       weigh_fit();
     }
     name_outliers();
+    name_unexplained_channels();
     explain_what_is_held();
     judge_fit();
     score_what_is_held_out();
@@ -120,6 +121,11 @@ void Calibrator::name_outliers() {
   if (found.size() > kMostNamed)
     result_.warnings.push_back(std::to_string(found.size() - kMostNamed) +
                                " further readings are more than 10 robust standard deviations off");
+}
+
+void Calibrator::name_unexplained_channels() {
+  result_.unexplained = unexplained_channels(problem_, result_.inference);
+  for (const UnexplainedChannel& channel : result_.unexplained) result_.warnings.push_back(channel.says);
 }
 
 void Calibrator::fit_poses() {

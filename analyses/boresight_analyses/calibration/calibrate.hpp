@@ -15,6 +15,7 @@
 #include "boresight_analyses/calibration/posterior_draws.hpp"
 #include "boresight_analyses/calibration/profile_likelihood.hpp"
 #include "boresight_analyses/calibration/suspects.hpp"
+#include "boresight_analyses/calibration/unexplained_channels.hpp"
 
 namespace boresight {
 
@@ -61,7 +62,8 @@ struct CalibrationResult {
   std::optional<PosteriorDraws> draws;
   std::vector<NextTest> next_tests;
   std::vector<std::string> verdict;
-  std::vector<std::string> warnings;  // of readings that no noise explains
+  std::vector<std::string> warnings;  // of readings that no noise explains, `unexplained` among them
+  std::vector<UnexplainedChannel> unexplained;
   long evaluations = 0;
   bool interrupted = false;
 };

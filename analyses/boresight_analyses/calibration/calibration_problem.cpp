@@ -232,7 +232,8 @@ std::string CalibrationProblem::global_unit(int g) const {
   if (g < parameter_count()) return parameters[g].si_unit;
   if (g < bias_column()) return "s";
   const bool drift = g >= drift_column();
-  const std::string unit = channel_names()[channels[offsets[g - (drift ? drift_column() : bias_column())].channel]].si_unit;
+  const std::string unit =
+      channel_names()[channels[offsets[g - (drift ? drift_column() : bias_column())].channel]].si_unit;
   return drift ? unit + "/s" : unit;
 }
 

@@ -28,6 +28,7 @@ class Calibrator {
  private:
   void warn_of(const OutlyingReading& reading, const std::string& what_becomes_of_it);
   void name_outliers();
+  void name_unexplained_channels();
 
   // Standing errors alone, at poses: nearly linear, so that one start is enough. Noise that is not given is estimated until it settles.
   void fit_poses();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boresight/keys/units.hpp"
 #include "boresight/math/eigenvalues.hpp"
 #include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/calibration/channel_noise.hpp"
@@ -58,6 +59,15 @@ std::string number(const char* format, double value) {
 
 }  // namespace
 
+// The standard error in the unit that the user wrote, else in millionths of a metre or radian.
+static std::string size_in_its_unit(const ParameterEstimate& e) {
+  if (!e.written_unit.empty())
+    return number("%.2g", e.standard_error / scale_of_unit(e.written_unit, unit_called(e.si_unit, true))) + " " +
+           e.written_unit;
+  const bool small = e.si_unit == "m" || e.si_unit == "rad";
+  return number("%.2g", small ? 1e6 * e.standard_error : e.standard_error) + (small ? " u" : " ") + e.si_unit;
+}
+
 // Why the data know an error, or not: its standard error beside what it may well be.
 static void assess_error(const FittedParameter& parameter, ParameterEstimate& e) {
   const double share = e.standard_error / parameter.size;
@@ -68,8 +78,7 @@ static void assess_error(const FittedParameter& parameter, ParameterEstimate& e)
     e.reason = "its standard error is " + (share < kSaidAsMultiple ? relative_text(share) + " of what was known before"
                                                                    : relative_text(share, 2, "what was known before"));
   else
-    e.reason =
-        (e.identifiable ? "known to " : "its standard error is ") + number("%.2g", e.standard_error) + " " + e.si_unit;
+    e.reason = (e.identifiable ? "known to " : "its standard error is ") + size_in_its_unit(e);
 }
 
 void assess_identifiability(const FittedParameter& parameter, ParameterEstimate& e) {
@@ -349,8 +358,8 @@ std::vector<std::string> verdict(const CalibrationProblem& problem, const Infere
     words.push_back("The data see " + std::to_string(inference.rank) + " of the " + std::to_string(P) +
                     " directions in which the parameters can change.");
   if (inference.grazing > 0)
-    words.push_back(std::to_string(inference.grazing) +
-                    " contacts began while barely moving (grazing): derivatives by them hold for small changes only.");
+    words.push_back(std::to_string(inference.grazing) + (inference.grazing == 1 ? " contact" : " contacts") +
+                    " began while barely moving (grazing): derivatives by them hold for small changes only.");
   if (inference.lags > 0)
     words.push_back("Neighbouring residuals follow one another (correlation " +
                     number("%.2f", inference.autocorrelation) +

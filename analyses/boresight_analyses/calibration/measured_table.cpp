@@ -32,8 +32,9 @@ Heading heading(const std::string& text) {
 double scale_of(const std::string& column, const std::string& unit_name, const SiUnit& unit, const Origin& at) {
   try {
     return scale_of_unit(unit_name, unit);
-  } catch (const ValueFault&) {
-    throw InputError(at, column, "the unit " + in_quotes(unit_name), std::string("that of ") + expectation(unit));
+  } catch (const ValueFault& fault) {
+    throw InputError(at, column, "the unit " + in_quotes(unit_name), std::string("that of ") + expectation(unit),
+                     fault.nearest);
   }
 }
 
@@ -80,6 +81,7 @@ void take_named_columns(const std::vector<Heading>& headings, const Origin& at, 
 }
 
 std::size_t column_called(const std::string& name, const std::vector<Heading>& headings, const Origin& at) {
+  constexpr std::size_t kFewLetters = 2;  // names as short as this are all alike
   std::vector<std::string> known;
   std::optional<std::size_t> found;
   for (std::size_t k = 0; k < headings.size(); ++k) {
@@ -88,9 +90,12 @@ std::size_t column_called(const std::string& name, const std::vector<Heading>& h
     if (found) throw InputError(at, "header", "the column " + in_quotes(name) + " twice", "each column once");
     found = k;
   }
-  if (!found)
-    throw InputError(at, "header", "no column " + in_quotes(name), "it, as the study names it",
-                     nearest_name(name, known));
+  if (!found) {
+    std::string all;
+    for (const Heading& h : headings) all += (all.empty() ? "" : ", ") + in_quotes(h.text);
+    throw InputError(at, "header", "no column " + in_quotes(name), "one of " + all,
+                     name.size() > kFewLetters ? nearest_name(name, known) : "");
+  }
   return *found;
 }
 
@@ -104,7 +109,7 @@ void take_asked_columns(const std::vector<Heading>& headings, const ReadAs& as, 
     if (!as.start_stamp) {
       if (unit.empty())
         throw InputError(at, "header", in_quotes(headings[time].text) + " without a unit",
-                         "a time such as \"t [ms]\", or time_unit in the study");
+                         "a time such as \"t [ms]\", or time_unit in the study; of time stamps, start as one of them");
       columns.time_scale = scale_of(as.time, unit, kDuration, at);
     }
   }
@@ -148,6 +153,9 @@ double number(const std::string& field, const std::string& column, const Origin&
 // From the motion's start on.
 double time_of(const std::string& field, const ReadAs& as, const Origin& at, Columns& columns) {
   if (is_missing(field)) throw InputError(at, as.time, "nothing", "a time");
+  if (!as.start_stamp && parse_time_stamp(field))
+    throw InputError(at, as.time, in_quotes(field),
+                     "a number; of time stamps, start says as one of them when the motion began");
   if (!as.start_stamp) return number(field, as.time, at, columns) * columns.time_scale - as.start;
   const std::optional<TimeStamp> stamp = parse_time_stamp(field);
   if (!stamp) throw InputError(at, as.time, in_quotes(field), "a time stamp, such as 2026-11-24T10:15:30.125Z");

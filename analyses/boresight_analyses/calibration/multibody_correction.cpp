@@ -98,9 +98,9 @@ CorrectionSize size_of(const CalibrationProblem& problem, const Globals& at, con
       for (int i = w.first; i <= w.last; ++i) {
         const double measured = problem.runs[w.run].data.value(i, column);
         if (!std::isfinite(measured)) continue;
-        const double r =
-            (multibody.reading[w.run](i, column) + at.offset_at(problem.offset_index(w.run, c), problem.runs[w.run].data.time[i]) - measured) /
-            problem.sigma[c];
+        const double r = (multibody.reading[w.run](i, column) +
+                          at.offset_at(problem.offset_index(w.run, c), problem.runs[w.run].data.time[i]) - measured) /
+                         problem.sigma[c];
         size.confirmation += std::pow(problem.loss.residual(r), 2);
         size.difference += std::pow(multibody.difference[w.run](i, column) / problem.sigma[c], 2);
         ++count;

@@ -16,6 +16,19 @@ std::string beside(const std::string& file, const std::string& name) {
   return path.is_absolute() ? name : (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
 }
 
+namespace {
+
+// "f" may mean "f [Hz]"; it is not taken for it, as nobody reads the unit here.
+std::string column_meant(const std::string& column, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (const std::size_t bracket = name.find_first_of("[(");
+        bracket != std::string::npos && trimmed(name.substr(0, bracket)) == column)
+      return name;
+  return nearest_name(column, names);
+}
+
+}  // namespace
+
 std::vector<double> read_csv_column(const std::string& file, const std::string& column) try {
   TextLines lines(file);
   std::string line;
@@ -24,7 +37,7 @@ std::vector<double> read_csv_column(const std::string& file, const std::string& 
   const std::vector<std::string> names = numbers.fields(line);
   const auto place = std::find(names.begin(), names.end(), column);
   if (place == names.end())
-    throw ColumnFault{false, in_quotes(column), "a column of " + in_quotes(file), nearest_name(column, names)};
+    throw ColumnFault{false, in_quotes(column), "a column of " + in_quotes(file), column_meant(column, names)};
   const auto index = static_cast<std::size_t>(place - names.begin());
   std::vector<double> values;
   while (lines.next(line)) {

@@ -31,11 +31,15 @@ Vec6 stacked(const PoseError& error) {
 
 std::string taken_up_by_play(const MechanismDescription& mechanism, std::size_t error) {
   const ErrorDescription& e = mechanism.errors[error];
-  const std::string name = "error." + e.name, unit = unit_of(e, mechanism.joints);
+  const std::string name = "error." + e.name, unit = said_unit_of(e, mechanism.joints);
   return name +
          " is taken up by play, so that what it does hangs on where all journals rest; a run with it and one with "
          "--set " +
-         name + "=0" + (unit == "rad" ? "mrad" : unit) + " tell";
+         name + "=0" +
+         (unit == "rad" ? "mrad"
+          : unit == "1" ? "ppm"
+                        : unit) +
+         " tell";
 }
 
 ErrorColumns::ErrorColumns(const Mechanism& mechanism, const IdealMotion& commanded)
@@ -113,7 +117,7 @@ ErrorParts parts_of_errors(const Mechanism& mechanism, const Parameters& paramet
     }
     places.push_back(e);
     found.parts.push_back({.name = "error." + description.errors[e].name,
-                           .unit = unit_of(description.errors[e], description.joints),
+                           .unit = said_unit_of(description.errors[e], description.joints),
                            .value = parameters.error[e],
                            .index = {},
                            .poses = {}});

@@ -42,7 +42,7 @@ Vec3 linear_error_vector(PointingQuantity quantity, const Vec6& displacement, co
                          const Pointing& pointing, double length);
 
 struct ErrorPart {
-  std::string name, unit;   // "error.rod1.length"; "m", "rad" or "K"
+  std::string name, unit;   // "error.rod1.length"; "m", "rad", "K" or "1" of a scale
   double value = 0.0;       // [SI]
   PointingIndices index;    // of this error alone
   std::vector<Vec6> poses;  // at the run's samples: displacement and turn, world axes [m, rad]

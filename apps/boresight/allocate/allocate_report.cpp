@@ -99,16 +99,21 @@ report::Chart front_chart(const AllocateStudy& s) {
   for (const CostPoint& p : s.result.front) most = std::max(most, p.limit);
   const DisplayUnit unit = display_unit_as(s.study.index.si_unit(), most, s.plan.requirement.unit);
   report::Chart chart{.title = "What accuracy costs",
-                      .caption = "The cheapest set for each limit, by the samples of the search.",
+                      .caption =
+                          "The line: the cheapest set for each limit, by the samples of the search; between two sets "
+                          "there is none. The points: what a set keeps by the runs that judged it, with the "
+                          "room that the search left it.",
                       .x = {"limit of the " + s.study.index.title(), unit.name},
                       .y = {"price", ""}};
+  std::vector<CostPoint> front = s.result.front;
+  std::sort(front.begin(), front.end(), [](const CostPoint& a, const CostPoint& b) { return a.limit < b.limit; });
   report::Numbers x, y;
-  for (const CostPoint& p : s.result.front)
+  for (const CostPoint& p : front)
     if (p.feasible) {
       x.push_back(p.limit * unit.per_si);
       y.push_back(p.price);
     }
-  chart.series.push_back({.name = "cheapest", .x = x, .y = y, .style = report::Style::line_markers});
+  chart.series.push_back({.name = "cheapest", .x = x, .y = y, .style = report::Style::steps});
   for (const Allocation* a : all_of(s))
     if (a->feasible)
       chart.series.push_back({.name = a == &s.result.chosen ? "chosen" : a->judged_by,

@@ -242,7 +242,8 @@ report::Table contributor_table(const BudgetStudy& s) {
     const auto at = std::find_if(m.errors.begin(), m.errors.end(),
                                  [&](const ErrorDescription& e) { return known.name == "error." + e.name; });
     table.rows.push_back({known.name, kKnownKind, "fixed, seen through the pose",
-                          readable(known.value, unit_of(*at, m.joints)) + " in all", "all", kFromInfluence});
+                          readable_of_error(known.value, said_unit_of(*at, m.joints)) + " in all", "all",
+                          kFromInfluence});
   }
   for (const Contributor& c : s.plan.contributors) {
     if (c.of_error) {

@@ -30,7 +30,7 @@ namespace boresight::app {
 namespace {
 
 // Errors of this size are rounding, in m or rad: a budget of them says nothing.
-constexpr double kNextToNothing = 1e-9;
+constexpr double kNextToNothing = 1e-11;
 
 struct RunsSeen {
   Failures failures;
@@ -156,10 +156,10 @@ Json budget_json(const BudgetStudy& s, const Budget& b) {
 // Where the members are too few for an upper end, the gain may be any more.
 std::string gain_text(const BudgetStudy& s, const ErrorReduction& r) {
   if (!std::isfinite(r.interval.low)) return "";
-  if (!std::isfinite(r.interval.high))
-    return fmt::format(" (from {}; {} members are too few to say up to what)", budget_value(s, r.interval.low),
-                       r.members);
-  return fmt::format(" ({} to {})", budget_value(s, r.interval.low), budget_value(s, r.interval.high));
+  const std::string low = (r.gain() < 0.0 ? "takes off " : "") + budget_value(s, r.interval.low);
+  return std::isfinite(r.interval.high)
+             ? fmt::format(" ({} to {})", low, budget_value(s, r.interval.high))
+             : fmt::format(" ({} at least; {} members are too few to say at most)", low, r.members);
 }
 
 class BudgetVerb : public Verb {
@@ -271,8 +271,10 @@ class BudgetVerb : public Verb {
     for (const NumberRange& range : missing) begun_with -= range.size();
     done = begun_with;
     if (!command.quiet) {
-      tell("{}: {} members on the {} rung, {} runs ({} members with {} groups held and {} clearances halved){}\n",
-           mechanism.name(), plan.members, model.rung(), runs.count(), runs.attribution(), runs.groups(), runs.joints(),
+      tell("{}: {} on the {} rung, {} ({} with {} held and {} halved){}\n", mechanism.name(),
+           how_many(plan.members, "member"), model.rung(), how_many(runs.count(), "run"),
+           how_many(runs.attribution(), "member"), how_many(runs.groups(), "group"),
+           how_many(runs.joints(), "clearance"),
            begun_with > 0 ? fmt::format(", {} of them stored already", begun_with) : "");
       std::fflush(stdout);
     }
@@ -389,7 +391,8 @@ class BudgetVerb : public Verb {
       std::size_t widest = 0;
       for (const ErrorReduction& r : b.reductions) widest = std::max(widest, r.name.size());
       for (const ErrorReduction& r : b.reductions)
-        tell("  {:<{}}  {:<20} takes off {}{}\n", r.name, widest, r.action, budget_value(s, r.gain()), gain_text(s, r));
+        tell("  {:<{}}  {:<20} {} {}{}\n", r.name, widest, r.action, r.gain() < 0.0 ? "adds" : "takes off",
+             budget_value(s, std::abs(r.gain())), gain_text(s, r));
     }
     tell_warnings(s.warnings, s.command, s.mechanism);
     tell("  report: {}\n", (out.path() / "report.html").string());

@@ -22,6 +22,16 @@ std::string known_to(double value, const ParameterEstimate& e) {
 
 std::string interval_of(const ParameterEstimate& e) { return known_to(e.low, e) + " to " + known_to(e.high, e); }
 
+std::string names_of(const std::vector<UnexplainedChannel>& channels) {
+  std::string names;
+  for (std::size_t k = 0; k < channels.size(); ++k)
+    names += (k == 0                     ? ""
+              : k + 1 == channels.size() ? " or "
+                                         : ", ") +
+             std::string(channel_names()[static_cast<std::size_t>(channels[k].channel)].name);
+  return names;
+}
+
 report::Table estimate_table(const CalibrationStudy& s) {
   report::Table table{
       .title = "Estimates",
@@ -264,8 +274,9 @@ report::Document calibrate_report(const CalibrationStudy& s) {
   const auto assumed = std::count_if(inference.parameters.begin(), inference.parameters.end(),
                                      [](const ParameterEstimate& e) { return e.by_prior; });
   document.verdict = report::Verdict{
-      all && s.result.fit.converged ? report::Standing::good : report::Standing::bad,
-      all && s.result.fit.converged && assumed == 0 ? std::string("All parameters are identifiable from these data.")
+      all && s.result.fit.converged && s.result.unexplained.empty() ? report::Standing::good : report::Standing::bad,
+      !s.result.unexplained.empty() ? "The model does not explain what " + names_of(s.result.unexplained) + " reads."
+      : all && s.result.fit.converged && assumed == 0 ? std::string("All parameters are identifiable from these data.")
       : all && s.result.fit.converged
           ? fmt::format("These data tell {} of {} parameters; the rest stands as was assumed before.",
                         inference.parameters.size() - static_cast<std::size_t>(assumed), inference.parameters.size())

@@ -24,6 +24,7 @@
 #include "command_line/verb.hpp"
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
+#include "results/start_warnings.hpp"
 #include "results/summary.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
@@ -129,7 +130,8 @@ class CalibrateVerb : public Verb {
                    : "the fit needs exact derivatives, which it has";
     Unfinished begun = own.run().go_on([&] { return rung; });
     problem.kept = begun.results.get();
-    const CalibrationResult result = calibrate(problem, options);
+    CalibrationResult result = calibrate(problem, options);
+    for (const std::string& one : start_warnings(*mechanism, rung.name)) result.warnings.push_back(one);
     stage->clear();
     const CalibrationStudy whole{command, study, *mechanism, rung, plan, problem, result};
     if (result.interrupted && result.inference.parameters.empty()) {
@@ -328,11 +330,11 @@ class CalibrateVerb : public Verb {
   }
 
   static void print(const CalibrationStudy& s, const OutputDirectory& out) {
-    tell("{}: {} runs, {} values; {}\n", s.mechanism.name(), s.problem.runs.size(), s.result.inference.values,
-         s.result.fit.reason);
+    tell("{}: {}, {}; {}\n", s.mechanism.name(), how_many(s.problem.runs.size(), "run"),
+         how_many(static_cast<std::size_t>(s.result.inference.values), "value"), s.result.fit.reason);
     for (const ParameterEstimate& e : s.result.inference.parameters)
       if (const DisplayUnit unit = unit_of_estimate(e); e.identifiable)
-        tell("  {}: {} +- {} ({:.5g} to {:.5g}{}{}){}\n", e.name, readable_as(e.value, e.si_unit, e.written_unit),
+        tell("  {}: {} ± {} ({:.5g} to {:.5g}{}{}){}\n", e.name, readable_as(e.value, e.si_unit, e.written_unit),
              readable_as(e.standard_error, e.si_unit, e.written_unit), e.low * unit.per_si, e.high * unit.per_si,
              unit.name.empty() ? "" : " ", unit.name, e.by_prior ? ", assumed, not told by the data" : "");
       else
@@ -340,7 +342,7 @@ class CalibrateVerb : public Verb {
     for (const ConfusedErrors& group : s.result.inference.confused)
       for (const KnownCombination& c : group.known) {
         const std::string written = written_unit_of(c, s.problem);
-        tell("  {}: {} +- {}\n", in_words(c, s.problem.parameters), readable_as(c.value, c.si_unit, written),
+        tell("  {}: {} ± {}\n", in_words(c, s.problem.parameters), readable_as(c.value, c.si_unit, written),
              readable_as(c.standard_error, c.si_unit, written));
       }
     for (const std::string& sentence : s.result.verdict) tell("  {}\n", sentence);

@@ -15,6 +15,7 @@
 #include "boresight/play/joint_play.hpp"
 #include "boresight/rungs/pressed_through.hpp"
 #include "boresight_analyses/study/overrun_play.hpp"
+#include "check/unlikely_masses.hpp"
 #include "report_parts/report_parts.hpp"
 #include "results/summary.hpp"
 #include "terminal/interruption.hpp"
@@ -65,6 +66,7 @@ report::Panels conditioning_panels(const KinematicReport& k) {
       .y = {"smallest singular value", ""}};
   smallest.series = {{.name = "smallest singular value", .x = t, .y = singular}};
   for (const LostMotion& lost : k.lost) smallest.lines.push_back({'x', lost.t, "singular"});
+  for (const double passed : k.passed) smallest.lines.push_back({'x', passed, "singular"});
   report::Panels panels{.title = "Distance from singular poses along the motion", .caption = {}, .columns = 2};
   if (has_conditioning(k)) panels.panels.push_back(std::move(inverse));
   panels.panels.push_back(std::move(smallest));
@@ -278,13 +280,13 @@ report::Table error_table(const std::vector<ErrorEffect>& effects) {
       .columns = {{"error"}, {"position, per unit"}, {"boresight, per unit"}, {"value"}, {"position"}, {"boresight"}}};
   for (const ErrorEffect& e : effects) {
     if (!e.strain.empty()) {
-      table.rows.push_back({e.name, "strains the mechanism", "", readable(e.value, e.unit), "", ""});
+      table.rows.push_back({e.name, "strains the mechanism", "", readable_of_error(e.value, e.unit), "", ""});
       continue;
     }
-    const double small = e.unit == "K" ? 1.0 : 1e-6;  // one kelvin; one micrometre, one microradian
-    const char* per = e.unit == "K" ? " per K" : e.unit == "m" ? " per µm" : " per µrad";
+    const double small = e.unit == "K" ? 1.0 : 1e-6;  // one kelvin; one micrometre, microradian or ppm
+    const char* per = e.unit == "K" ? " per K" : e.unit == "m" ? " per µm" : e.unit == "1" ? " per ppm" : " per µrad";
     table.rows.push_back({e.name, readable(e.position * small, "m") + per, readable(e.boresight * small, "rad") + per,
-                          readable(e.value, e.unit), readable(e.position * std::abs(e.value), "m"),
+                          readable_of_error(e.value, e.unit), readable(e.position * std::abs(e.value), "m"),
                           readable(e.boresight * std::abs(e.value), "rad")});
   }
   return table;
@@ -304,6 +306,7 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
       result.findings.push_back(fmt::format("at t = {:.4g} s: {}", lost.t, lost.description));
     if (!k.feasible) result.findings.emplace_back("the ideal motion cannot be followed to its end");
   }
+  for (std::string& sentence : unlikely_inertias(mechanism)) result.notes.push_back(std::move(sentence));
   if (sound) {
     try {
       add_growth_notes(mechanism, result);
@@ -312,9 +315,19 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
       result.findings.emplace_back(error.what());
     }
   }
-  if (sound && mechanism.clearances() > 0) {
+  if (sound && (mechanism.clearances() > 0 || k.along.empty())) {
     try {
       const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
+      if (k.along.empty()) {
+        look_along(mechanism, ideal, result.kinematics);
+        if (!k.passed.empty())
+          result.notes.push_back(fmt::format(
+              "the motion passes a singular pose at t = {:.4g} s{}, where its joints hold one motion less; it is taken "
+              "to "
+              "go on smoothly, and rungs other than multibody may end there",
+              k.passed.front(), k.passed.size() > 1 ? fmt::format(", and {} more", k.passed.size() - 1) : ""));
+      }
+      if (mechanism.clearances() == 0) return result;
       add_play_findings(mechanism, ideal, result);
       for (const std::string& sentence : overrun_plays(mechanism, mechanism.parameters(), ideal))
         result.findings.push_back(sentence);
@@ -357,9 +370,10 @@ report::Document check_report(const Command& command, const Mechanism& mechanism
                                 .value = worst(&ConditioningSample::position),
                                 .note = "1 is best; at 0 the drives lose a motion"});
     } else {
-      document.facts.push_back({.label = "Distance from losing a motion",
-                                .value = worst(&ConditioningSample::smallest_singular_value),
-                                .note = "0 where the drives lose one"});
+      document.facts.push_back(
+          {.label = "Distance from losing a motion",
+           .value = worst(&ConditioningSample::smallest_singular_value),
+           .note = k.free_freedoms > 0 ? "0 where the joints lose one" : "0 where the drives lose one"});
     }
   }
   // A play that cannot move has no step.

@@ -74,8 +74,11 @@ void print_errors(const CheckResult& result) {
   });
   for (std::size_t k = 0; k < std::min(kShown, order.size()); ++k) {
     const ErrorEffect& e = *order[k];
-    tell("  error.{} of {}: boresight off by up to {}, position by {}\n", e.name, readable(e.value, e.unit),
-         readable(e.boresight * std::abs(e.value), "rad"), readable(e.position * std::abs(e.value), "m"));
+    const auto text = [&](double per_unit, const char* unit, const char* words) {
+      return per_unit > 0.0 ? words + readable(per_unit * std::abs(e.value), unit) : std::string("nothing");
+    };
+    tell("  error.{} of {}: boresight off by {}, position by {}\n", e.name, readable_of_error(e.value, e.unit),
+         text(e.boresight, "rad", "up to "), text(e.position, "m", e.boresight > 0.0 ? "" : "up to "));
   }
   if (order.size() < result.errors.size() || order.size() > kShown)
     tell("  {} errors; the report has what one unit of each does\n", result.errors.size());

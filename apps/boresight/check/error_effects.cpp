@@ -32,7 +32,7 @@ std::vector<ErrorEffect> error_effects(const Mechanism& mechanism, const IdealMo
   for (const ErrorDescription& error : description.errors) {
     ErrorEffect& effect = effects.emplace_back();
     effect.name = error.name;
-    effect.unit = unit_of(error, description.joints);
+    effect.unit = said_unit_of(error, description.joints);
     effect.value = error.value;
   }
   if (effects.empty()) return effects;
@@ -85,7 +85,7 @@ std::vector<ErrorEffect> error_effects(const Mechanism& mechanism, const IdealMo
   }
   for (std::size_t e = 0; e < effects.size(); ++e) {
     ErrorEffect& effect = effects[e];
-    // What one unit is beside the mechanism: a length moves it by itself, an angle turns it, warming grows it.
+    // What one unit is beside the mechanism: a length moves it by itself, an angle and a share turn it, warming grows it.
     const double one = effect.unit == "m" ? 1.0 / length : effect.unit == "K" ? description.errors[e].coefficient : 1.0;
     if (effect.position < kRoundingOfEffects * one * length) effect.position = 0.0;
     if (effect.boresight < kRoundingOfEffects * one) effect.boresight = 0.0;

@@ -10,7 +10,7 @@
 namespace boresight::app {
 
 struct ErrorEffect {
-  std::string name, unit;                  // unit: of its value, "m", "rad" or "K"
+  std::string name, unit;                  // unit: of its value, "m", "rad", "K" or "1" of a scale
   double value = 0.0;                      // in the file [SI]
   double position = 0.0, boresight = 0.0;  // the largest over the motion, per SI unit of the error [m, rad]
   bool uses_play = false;  // takes up play of joints that hold each other: how these then rest moves more

@@ -52,7 +52,9 @@ void CommandOptions::declare(CLI::App& app, const Verb& verb) {
         ->type_name("NAME")
         ->capture_default_str();
   if (used("--accuracy"))
-    app.add_option("--accuracy", accuracy, "wanted of the index, e.g. \"1 %\"; chooses the rung where --rung names none")->type_name("SHARE");
+    app.add_option("--accuracy", accuracy,
+                   "wanted of the index, e.g. \"1 %\"; chooses the rung where --rung names none")
+        ->type_name("SHARE");
   if (used("--jobs")) app.add_option("--jobs", jobs, "threads; otherwise as many as there are cores")->type_name("N");
   if (used("--quiet")) app.add_flag("--quiet", quiet, "no progress, no summary on the terminal");
   if (used("--json")) app.add_flag("--json", json, verb.json_is());

@@ -13,6 +13,7 @@
 #include "results/output_directory.hpp"
 #include "results/whole_results.hpp"
 #include "terminal/exit_status.hpp"
+#include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
 namespace boresight::app {
@@ -125,7 +126,7 @@ class ImportVerb : public Verb {
     const MechanismDescription& m = assembly.mechanism;
     double mass = 0.0;
     for (const BodyDescription& body : m.bodies) mass += body.mass;
-    tell("{}: {} bodies of {:.4g} kg together, {} joints, {} of them driven\n", to, m.bodies.size(), mass,
+    tell("{}: {} of {:.4g} kg together, {}, {} of them driven\n", to, how_many(m.bodies.size(), "body", "bodies"), mass,
          m.joints.size(), assembly.drives.size());
     const auto list = [](const char* title, const std::vector<Remark>& remarks) {
       if (remarks.empty()) return;

@@ -217,6 +217,13 @@ std::string objective_text(const MatchingPlan& plan, const IndexChoice& index, d
   return fmt::format("{:.4g}{}{}", value * unit.per_si, unit.name.empty() ? "" : " ", unit.name);
 }
 
+bool ends_at_nothing(const DesignVariable& v, double at) {
+  const bool none_below = v.si_unit == "kg" || std::all_of(v.paths.begin(), v.paths.end(), [](const std::string& path) {
+                            return path.starts_with("clearance.");
+                          });
+  return none_below && v.from == 0.0 && at - v.from < v.to - at;
+}
+
 std::string search_text(const MatchingResult& result) {
   if (result.global.empty()) return "interrupted in the search of the box, before any descent";
   if (result.local.empty()) return "search of the box: " + result.global + ", interrupted in the first descent";
@@ -225,6 +232,7 @@ std::string search_text(const MatchingResult& result) {
 
 std::string match_sentence(const MatchStudy& s) {
   const MatchingResult& r = s.result;
+  if (r.design.empty() && r.interrupted) return "No design was computed before the interruption.";
   if (r.design.empty()) return "Nothing was found: no design could be computed.";
   std::string text = fmt::format("{}: {} at {}", s.plan.objective.title(s.study.index), value_text(s, r.objective),
                                  design_text(s.plan, r.design));
@@ -244,9 +252,9 @@ report::Document match_report(const MatchStudy& s) {
                             .subtitle = "Matching: least " + s.plan.objective.title(s.study.index),
                             .verb = "match"};
   const bool good = s.result.feasible && s.result.converged && !s.result.interrupted;
-  document.verdict =
-      report::Verdict{good ? report::Standing::good : report::Standing::bad,
-                      (s.result.interrupted ? "Interrupted; the best so far. " : "") + match_sentence(s)};
+  document.verdict = report::Verdict{
+      good ? report::Standing::good : report::Standing::bad,
+      (s.result.interrupted && !s.result.design.empty() ? "Interrupted; the best so far. " : "") + match_sentence(s)};
   document.warnings = s.warnings;
   document.provenance = provenance_of(s.command, s.mechanism, s.rung);
   document.provenance.back() = {"Data",

@@ -28,6 +28,8 @@ struct MatchStudy {
 std::string design_text(const MatchingPlan& plan, const std::vector<double>& design);
 // A value of the objective with four digits, in the unit in which `beside` is shown.
 std::string objective_text(const MatchingPlan& plan, const IndexChoice& index, double value, double beside);
+// Whether a design at the lower end of a variable's range is at 0 of what is never less, a mass or a size: nothing better lies beyond.
+bool ends_at_nothing(const DesignVariable& variable, double at);
 // "search: direct, descent: bobyqa", or how far it came where it was interrupted.
 std::string search_text(const MatchingResult& result);
 // The answer in a sentence.

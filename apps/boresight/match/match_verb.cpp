@@ -167,8 +167,8 @@ class MatchVerb : public Verb {
     }
 
     if (!command.quiet) {
-      tell("{}: {} variables, {} on the {} rung, {} per design{}\n", mechanism->name(), plan.variables.size(),
-           plan.objective.title(study.index), choice.name,
+      tell("{}: {}, {} on the {} rung, {} per design{}\n", mechanism->name(),
+           how_many(plan.variables.size(), "variable"), plan.objective.title(study.index), choice.name,
            plan.samples == 1 ? "one run" : fmt::format("{} runs", plan.samples),
            store->size() > 0 ? fmt::format("; {} designs known already", store->size()) : "");
       std::fflush(stdout);
@@ -236,7 +236,7 @@ class MatchVerb : public Verb {
         warnings.push_back(fmt::format("the descent from {} ended at {}, a worse place than the optimum", d.from,
                                        design_text(plan, d.end)));
     for (std::size_t i = 0; i < result.at_bound.size(); ++i)
-      if (result.at_bound[i])
+      if (result.at_bound[i] && !ends_at_nothing(plan.variables[i], result.design[i]))
         warnings.push_back(plan.variables[i].name() + " lies at its bound: better values may lie beyond");
     for (const MatchingConfirmation& c : result.confirmation)
       if (!c.agrees) warnings.push_back("the confirmation disagrees: " + c.sentence);
@@ -305,9 +305,10 @@ class MatchVerb : public Verb {
     tell("  {}; {} designs computed, {} reused{}{}\n", search_text(s.result), s.result.evaluations, s.result.reused,
          s.result.why.empty() ? "" : "; ", s.result.why);
     for (const MatchingDescent& d : s.result.descents)
-      tell("  from {}: {} -> {}, {:.5g}{}\n", d.from, design_text(s.plan, d.start), design_text(s.plan, d.end),
-           d.objective, d.agrees ? ", the same answer" : "");
+      tell("  from {}: {} -> {}, {}{}\n", d.from, design_text(s.plan, d.start), design_text(s.plan, d.end),
+           objective_text(s.plan, s.study.index, d.objective, s.result.objective), d.agrees ? ", the same answer" : "");
     tell_warnings(s.warnings, s.command, s.mechanism);
+    if (s.result.interrupted) tell("  interrupted; what was computed is kept, the same command goes on\n");
     tell("  report: {}\n", (out.path() / "report.html").string());
   }
 

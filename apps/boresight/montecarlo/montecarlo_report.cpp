@@ -318,10 +318,10 @@ std::string verdict_sentence(const MonteCarloStudy& s) {
       readable_as(asked.limit, s.study.index.si_unit(), asked.unit), fmt::format("{:g} %", 100.0 * asked.probability),
       fmt::format("{:g} %", 100.0 * asked.confidence), found.met ? "met" : "not shown to be met");
   if (std::isfinite(found.probability.value) && found.judgement.by == Judgement::By::nothing)
-    text += fmt::format(" The share is {:.6g} %.", 100.0 * found.probability.value);
+    text += fmt::format(" The share is {}.", readable_near_all(found.probability.value));
   else if (std::isfinite(found.probability.value))
-    text += fmt::format(" The share is {:.6g} %, and at least {:.6g} % with {} confidence.",
-                        100.0 * found.probability.value, 100.0 * found.probability.low,
+    text += fmt::format(" The share is {}, and at least {} with {} confidence.",
+                        readable_near_all(found.probability.value), readable_near_all(found.probability.low),
                         found.judgement.confidence == asked.confidence
                             ? "this"
                             : fmt::format("{:.5g} %", 100.0 * found.judgement.confidence));
@@ -334,8 +334,8 @@ std::string verdict_sentence(const MonteCarloStudy& s) {
     text += fmt::format(
         " The samples show it, the model does not: the {} rung and its steps may be off by {}, and if every sample "
         "were larger by what may be "
-        "missed of it, the share would be {:.6g} %. A more exact rung may show it.",
-        s.rung.name, readable_error(found.model_error), 100.0 * found.within_error->value);
+        "missed of it, the share would be {}. A more exact rung may show it.",
+        s.rung.name, readable_error(found.model_error), readable_near_all(found.within_error->value));
   else if (!found.met && found.judgement.by != Judgement::By::nothing && found.probability.value >= asked.probability)
     text += " The samples do not contradict it; more of them may show it.";
   return text;

@@ -63,10 +63,11 @@ void print(const MonteCarloStudy& s, const OutputDirectory& out) {
            readable_interval(e.interval, unit, written), readable_share(s.plan.confidence));
   for (const ErrorStatement& e : s.estimates.errors)
     if (e.of == s.estimates.headline)
-      tell("  {} is uncertain by sampling {}, discretisation {}, rung {}: {} dominates\n", e.of,
-           std::isfinite(e.sampling.relative) ? readable_error(e.sampling.relative) : "without bound",
-           std::isfinite(e.discretisation.relative) ? readable_error(e.discretisation.relative) : "not measured",
-           readable_error(e.rung.relative), e.dominant);
+      tell(
+          "  {} is uncertain by sampling {}, discretisation {}, rung {}: {} dominates\n", e.of,
+          std::isfinite(e.sampling.relative) ? readable_error(e.sampling.relative) : "more than these samples can tell",
+          std::isfinite(e.discretisation.relative) ? readable_error(e.discretisation.relative) : "not measured",
+          readable_error(e.rung.relative), e.dominant);
   if (s.estimates.requirement) tell("  {}\n", verdict_sentence(s));
   tell_warnings(s.warnings, s.command, s.mechanism);
   tell("  report: {}\n", (out.path() / "report.html").string());

@@ -26,9 +26,10 @@ namespace {
 
 // A number of the mechanism: --set, [[random]] and their like take it.
 struct NumberPath {
-  std::string path, unit;
-  double value = 0.0;   // SI
-  std::string written;  // "0.1 mm"; "" where nobody gave it
+  std::string path, unit;  // unit: what it is computed in
+  bool is_scale = false;   // of a drive: a share, whatever it is computed in
+  double value = 0.0;      // SI
+  std::string written;     // "0.1 mm"; "" where nobody gave it
 };
 
 struct Paths {
@@ -63,7 +64,8 @@ Paths paths_of(const std::string& file, const std::vector<Setting>& settings) {
   for (const std::string& path : parameter_paths(mechanism)) {
     if (settable.erase(path) == 0) continue;  // of another law
     const ParameterPath place(mechanism, path);
-    NumberPath& number = paths.numbers.emplace_back(NumberPath{path, place.unit(), place.get(parameters), ""});
+    NumberPath& number = paths.numbers.emplace_back(
+        NumberPath{path, place.unit(), names_scales(mechanism, path), place.get(parameters), ""});
     if (const auto found = written.find(path); found != written.end() && says(found->second, number))
       number.written = found->second;
   }
@@ -75,7 +77,7 @@ Paths paths_of(const std::string& file, const std::vector<Setting>& settings) {
 Json json_of(const Paths& paths) {
   Json numbers = Json::array();
   for (const NumberPath& n : paths.numbers) {
-    numbers.push_back({{"path", n.path}, {"value", n.value}, {"unit", n.unit}});
+    numbers.push_back({{"path", n.path}, {"value", n.value}, {"unit", n.is_scale ? "1" : n.unit}});
     if (!n.written.empty()) numbers.back()["written"] = n.written;
   }
   return {{"numbers", numbers}, {"others", paths.others}};
@@ -89,7 +91,8 @@ void print(const Paths& paths) {
       "clearance.*.radial):\n");
   for (const NumberPath& n : paths.numbers)
     tell("  {:{}}  {}\n", n.path, widest,
-         !n.written.empty() ? n.written : fmt::format("{:.6g}{}", n.value, n.unit == "1" ? "" : " " + n.unit));
+         !n.written.empty() ? n.written
+                            : fmt::format("{:.6g}{}", n.value, n.is_scale || n.unit == "1" ? "" : " " + n.unit));
 }
 
 void print_others(const Paths& paths) {

@@ -61,6 +61,12 @@ constexpr const char* kAxisName[] = {"x", "y", "z"};
 
 }  // namespace
 
+double rounding_of(const Mechanism& mechanism, const std::string& si_unit) {
+  constexpr double kRounded = 1e-11, kIntegrated = 1e-8;
+  const bool deviates = mechanism.clearances() > 0 || !mechanism.description().errors.empty();
+  return (deviates ? kRounded : kIntegrated) * (si_unit == "m" ? mechanism.characteristic_length() : 1.0);
+}
+
 report::Series curve(const std::string& name, const std::vector<double>& time, const std::vector<double>& si_values,
                      double per_si) {
   std::vector<double> y = si_values;
@@ -90,7 +96,7 @@ report::Panels motion_panels(const Mechanism& mechanism, const std::vector<Overl
       .title = "Motion of the " + overlays.front().result->boresight.name, .caption = caption, .columns = 3};
   for (int k = 0; k < 3; ++k)
     panels.panels.push_back(panel(
-        std::string("Displacement ") + kAxisName[k], {kAxisName[k], "mm"}, overlays, 1e3,
+        std::string("Position ") + kAxisName[k], {kAxisName[k], "mm"}, overlays, 1e3,
         [k](const PoseSample& s) { return s.pose.p[k]; }, [k](const PoseSample& s) { return s.ideal.p[k]; }));
 
   const Mat3& home = mechanism.description().bodies[mechanism.boresight_body()].axes;
@@ -130,7 +136,7 @@ report::Panels motion_panels(const Mechanism& mechanism, const std::vector<Overl
   return panels;
 }
 
-report::Panels difference_panels(const std::vector<Overlay>& overlays) {
+report::Panels difference_panels(const Mechanism& mechanism, const std::vector<Overlay>& overlays) {
   report::Panels panels{
       .title = "Difference from the ideal motion",
       .caption = "The same motion with the ideal one taken away, in world axes: what play and standing errors do.",
@@ -145,7 +151,7 @@ report::Panels difference_panels(const std::vector<Overlay>& overlays) {
     panels.panels.push_back(panel(std::string("Displacement error ") + kAxisName[k],
                                   {std::string("d") + kAxisName[k], length.name}, overlays, length.per_si,
                                   [k](const PoseSample& s) { return s.error.displacement[k]; }));
-  if (rotation < kRounding)
+  if (rotation < rounding_of(mechanism, "rad"))
     panels.caption += " The rotation errors are zero to rounding and not drawn.";
   else
     for (int k = 0; k < 3; ++k)
@@ -155,7 +161,7 @@ report::Panels difference_panels(const std::vector<Overlay>& overlays) {
   return panels;
 }
 
-report::Panels error_panels(const std::vector<Overlay>& overlays) {
+report::Panels error_panels(const Mechanism& mechanism, const std::vector<Overlay>& overlays) {
   report::Panels panels{.title = "Pointing errors over time", .caption = {}, .columns = 2};
   struct Entry {
     const char* title;
@@ -171,7 +177,7 @@ report::Panels error_panels(const std::vector<Overlay>& overlays) {
   for (const Entry& entry : entries) {
     if (&entry == &entries[3] && !overlays.front().result->index.has_line_of_sight) continue;
     const double most = largest_over(overlays, entry.value);
-    if (most < kRounding) {
+    if (most < rounding_of(mechanism, entry.si_unit)) {
       panels.caption +=
           (panels.caption.empty() ? "" : " ") + std::string(entry.title) + ": zero to rounding, not drawn.";
       continue;
@@ -202,18 +208,18 @@ constexpr const char* kStated =
     " ±: what steps do and what the rung leaves out, of each figure by itself, where that was measured.";
 
 report::Table index_table(const std::vector<Overlay>& overlays) {
-  report::Table table{
-      .title = "Indices",
-      .caption = "Statistics over time, from every accepted step. Angles also in arcseconds." +
-                 (!overlays.empty() && overlays.front().stated ? std::string(kStated) : "") + definitions(overlays),
-      .columns = {{"Motion"},
-                  {"Error"},
-                  {"Maximum"},
-                  {"at", "s"},
-                  {"RMS"},
-                  {"Mean"},
-                  {"99.73 % below"},
-                  {"Maximum in arcseconds"}}};
+  report::Table table{.title = "Indices",
+                      .caption = "Statistics over time, from every accepted step. Angles also in arcseconds." +
+                                 (!overlays.empty() && overlays.front().stated ? std::string(kStated) : "") +
+                                 definitions(overlays),
+                      .columns = {{"Motion"},
+                                  {"Error"},
+                                  {"Maximum"},
+                                  {"at", "s"},
+                                  {"RMS"},
+                                  {"Mean"},
+                                  {"99.73 % below"},
+                                  {"Maximum in arcseconds"}}};
   const bool one = overlays.size() == 1;
   if (one) table.columns.erase(table.columns.begin());
   for (const Overlay& overlay : overlays) {
@@ -225,7 +231,7 @@ report::Table index_table(const std::vector<Overlay>& overlays) {
             overlay.stated && *statistic != '\0' ? overlay.stated({quantity.name, statistic}) : "";
         return readable(value, quantity.si_unit) + (uncertainty.empty() ? "" : " " + uncertainty);
       };
-      std::vector<nlohmann::json> row = {overlay.name,        quantity.title,        text(s.max, "max"), s.time_of_max,
+      std::vector<nlohmann::json> row = {overlay.name,       quantity.title,       text(s.max, "max"), s.time_of_max,
                                          text(s.rms, "rms"), text(s.mean, "mean"), text(s.p9973, ""),  nullptr};
       if (std::string(quantity.si_unit) == "rad") row.back() = readable_arcsec(s.max);
       if (one) row.erase(row.begin());

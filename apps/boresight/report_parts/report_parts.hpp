@@ -20,26 +20,27 @@ namespace boresight::app {
 struct Overlay {
   std::string name;  // "0.1 mm"
   const RunResult* result = nullptr;
-  std::function<std::string(const IndexChoice&)> stated = {};  // "± 2.3 %" of an index, or nothing; none: nobody measured
+  std::function<std::string(const IndexChoice&)> stated =
+      {};  // "± 2.3 %" of an index, or nothing; none: nobody measured
 };
 
 // Curves keep about this many points each; spikes are never lost (report::thinned).
 inline constexpr std::size_t kPointsPerCurve = 1500;
 
-// Errors below this (m, rad) are what the computation rounds or its constraints drift by; a chart would show
-// noise as a result.
-inline constexpr double kRounding = 1e-8;
+// Errors below this, of the size of the mechanism [m] or as an angle ("rad"), are what the computation rounds; a chart would show noise as a
+// result. Of a mechanism with neither play nor errors they are what the integration leaves of its ideal motion, which is more.
+double rounding_of(const Mechanism& mechanism, const std::string& si_unit);
 
-// The twelve panels of Sun et al. Fig. 6: displacement, Z-Y-X Euler angles from home, acceleration and
+// The twelve panels of Sun et al. Fig. 6: position (their displacement), Z-Y-X Euler angles from home, acceleration and
 // angular acceleration of the boresight body, each against the ideal motion.
 report::Panels motion_panels(const Mechanism& mechanism, const std::vector<Overlay>& overlays,
                              const std::string& caption);
 
 // What the eye cannot see in the twelve panels: the difference from the ideal motion, per axis.
-report::Panels difference_panels(const std::vector<Overlay>& overlays);
+report::Panels difference_panels(const Mechanism& mechanism, const std::vector<Overlay>& overlays);
 
 // The size of the four errors over time.
-report::Panels error_panels(const std::vector<Overlay>& overlays);
+report::Panels error_panels(const Mechanism& mechanism, const std::vector<Overlay>& overlays);
 
 // The four indices with their statistics, one table per overlay row.
 report::Table index_table(const std::vector<Overlay>& overlays);

@@ -94,6 +94,15 @@ std::string stated_error_text(const MeasuredError& measured, const RunResult& re
   return "± " + relative_text(std::max(relative, kLeastShown), 2, "it");
 }
 
+std::string force_error_text(const MeasuredError& measured, const RunResult& result, std::size_t clearance) {
+  // With less a reader of three digits is not misled.
+  constexpr double kLeastSaid = 5e-3;
+  if (!measured.measured || clearance >= measured.contact_force.size()) return "";
+  const double force = result.contact[clearance].max_force;
+  const double relative = force > 0.0 ? measured.contact_force[clearance] / force : 0.0;
+  return relative < kLeastSaid ? "" : "± " + relative_text(relative, 2, "it");
+}
+
 ModelErrorSaid model_error_said(const RunResult& result, const IndexChoice& of, double size) {
   // A tenth of what is asked for is more than any reader would take for granted.
   constexpr double kMuch = 0.1, kManyTimes = 2.0;
@@ -118,7 +127,9 @@ Json step_error_json(const MeasuredError& measured) {
                {"basis", measured.basis},
                {"runs", measured.runs},
                {"cpu_seconds", measured.cpu_seconds},
-               {"stated", index_json(measured.stated)}};
+               {"stated", index_json(measured.stated)},
+               {"contact_force", measured.contact_force},
+               {"platform_acceleration", vector_json(measured.acceleration)}};
   for (const QuantityName& quantity : quantity_names())
     for (const StatisticName& statistic : statistic_names())
       json["scatters"][quantity.name][statistic.name] = measured.scatters(quantity.statistics, statistic.value);

@@ -22,6 +22,9 @@ std::string step_error_sentence(const MeasuredError& measured, const PointingInd
 std::string stated_error_text(const MeasuredError& measured, const RunResult& result, const IndexChoice& of,
                               double size);
 
+// The same of the largest force of a clearance's contact: what the steps do.
+std::string force_error_text(const MeasuredError& measured, const RunResult& result, std::size_t clearance);
+
 // A warning where the steps leave out as much as there is, or more, and it is not that one motion is unlike the next; else empty.
 // deviates: whether there is play or a standing error at all.
 std::string steps_mislead(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of,

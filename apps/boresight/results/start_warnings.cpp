@@ -10,7 +10,6 @@ namespace boresight::app {
 std::vector<std::string> start_warnings(const Mechanism& mechanism, const std::string& rung) {
   std::vector<std::string> warnings;
   try {
-    if (mechanism.clearances() == 0 && is_kinematic(mechanism)) return warnings;
     const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
     if (const std::string doubt = doubt_of(ideal); !doubt.empty()) warnings.push_back(doubt);
     const StartingJournals start = starting_journals(mechanism, mechanism.parameters(), ideal);

@@ -9,7 +9,7 @@
 
 namespace boresight::app {
 
-// That the ideal motion is not known as well as it was sought (ideal_simulation.hpp), that loads tip journals over to a side that nothing
+// That the ideal motion is not known as well as it was sought, or passes singular poses (ideal_simulation.hpp), that loads tip journals over to a side that nothing
 // decides or that nothing holds them somewhere in their play (scene/tipping.hpp), and, on rungs that follow a motion, that no position of rest was found. Samples whose masses, loads or errors
 // are far from the file's may do otherwise. Empty where nothing is to be said, or nothing could be found out.
 std::vector<std::string> start_warnings(const Mechanism& mechanism, const std::string& rung);

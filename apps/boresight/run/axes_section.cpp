@@ -3,6 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -13,12 +18,43 @@
 namespace boresight::app {
 namespace {
 
-PointingIndices at_rest(MechanismDescription description, JournalAxes axes) {
+// What is said beside the motion may take so long; where a scene of its loads takes longer, it is left out.
+constexpr std::chrono::seconds kMostTime{10};
+
+// Set once that time is over.
+class TimeLimit {
+ public:
+  explicit TimeLimit(std::chrono::seconds most)
+      : timer_([this, most] {
+          std::unique_lock lock(mutex_);
+          if (!ended_.wait_for(lock, most, [this] { return done_; })) over_ = true;
+        }) {}
+  ~TimeLimit() {
+    {
+      const std::scoped_lock lock(mutex_);
+      done_ = true;
+    }
+    ended_.notify_one();
+    timer_.join();
+  }
+  TimeLimit(const TimeLimit&) = delete;
+  TimeLimit& operator=(const TimeLimit&) = delete;
+  const std::atomic<bool>& over() const { return over_; }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool done_ = false;
+  std::atomic<bool> over_{false};
+  std::thread timer_;
+};
+
+PointingIndices at_rest(MechanismDescription description, JournalAxes axes, const std::atomic<bool>& over) {
   for (ClearanceDescription& c : description.clearances) c.axes = axes;
   const auto mechanism = std::make_shared<const Mechanism>(std::move(description));
   RunOptions options;
   options.sample_spacing = 0.0;
-  options.progress = [](const RunProgress&) { return !interrupted(); };
+  options.progress = [&over](const RunProgress&) { return !interrupted() && !over; };
   const RunResult result = make_rests(mechanism)->run(mechanism->parameters(), options);
   if (result.interrupted) throw Interrupted{};
   return result.index;
@@ -34,13 +70,19 @@ std::optional<AxesComparison> compare_axes(const Mechanism& mechanism) {
   AxesComparison result;
   result.free = std::any_of(m.clearances.begin(), m.clearances.end(),
                             [](const ClearanceDescription& c) { return c.axes == JournalAxes::free; });
+  const TimeLimit limit(kMostTime);
+  const StopOfThread stop(limit.over());
   try {
-    const PointingIndices parallel = at_rest(m, JournalAxes::parallel), free = at_rest(m, JournalAxes::free);
+    const PointingIndices parallel = at_rest(m, JournalAxes::parallel, limit.over()),
+                          free = at_rest(m, JournalAxes::free, limit.over());
     result.parallel_boresight = parallel.boresight_error.max;
     result.free_boresight = free.boresight_error.max;
     result.parallel_position = parallel.position_error.max;
     result.free_position = free.position_error.max;
   } catch (const ComputationError&) {
+    return {};
+  } catch (const Interrupted&) {
+    if (interrupted()) throw;
     return {};
   }
   // Rounding of a motion integrated in metres.

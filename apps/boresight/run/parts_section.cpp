@@ -120,7 +120,7 @@ report::Table parts_table(const RunParts& parts, const Mechanism& mechanism, con
                           share(part.position_share), shown(index.boresight_error.max, angle),
                           shown(index.boresight_error.rms, angle), share(part.boresight_share)});
   };
-  for (const ErrorPart& part : found.parts) row(short_name(part), readable(part.value, part.unit), part);
+  for (const ErrorPart& part : found.parts) row(short_name(part), readable_of_error(part.value, part.unit), part);
   const std::string rest = rest_name(mechanism, result);
   if (!rest.empty() && !found.rest.poses.empty()) row(rest, "", found.rest);
   return table;
@@ -183,9 +183,9 @@ std::vector<std::string> parts_lines(const RunParts& parts) {
     return value > kNoPart ? "up to " + readable(value, unit) : std::string("nothing");
   };
   for (std::size_t i = 0; i < std::min(kLines, all.size()); ++i)
-    lines.push_back(fmt::format("{} of {}: position {}, boresight {}", all[i].name, readable(all[i].value, all[i].unit),
-                                up_to(all[i].index.position_error.max, "m"),
-                                up_to(all[i].index.boresight_error.max, "rad")));
+    lines.push_back(
+        fmt::format("{} of {}: position {}, boresight {}", all[i].name, readable_of_error(all[i].value, all[i].unit),
+                    up_to(all[i].index.position_error.max, "m"), up_to(all[i].index.boresight_error.max, "rad")));
   if (all.size() > kLines)
     lines.push_back(fmt::format("and {} more errors; the report has them all", all.size() - kLines));
   return lines;

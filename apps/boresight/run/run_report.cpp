@@ -41,7 +41,7 @@ std::vector<report::Fact> headline(const RunResult& result, const MeasuredError&
   for (const ContactSummary& c : result.contact)
     facts.push_back({.label = c.joint + ", in contact",
                      .value = readable_share(c.contact_fraction),
-                     .note = fmt::format("{} impacts, {} at most", c.impacts, readable(c.max_force, "N"))});
+                     .note = fmt::format("{}, {} at most", how_many(c.impacts, "impact"), readable(c.max_force, "N"))});
   facts.push_back({.label = "Peak acceleration",
                    .value = readable(result.platform_acceleration_max.maxCoeff(), "m/s^2"),
                    .note = "largest of the three axes"});
@@ -102,6 +102,7 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
   const DisplayUnit axial_unit{axial.y.unit, axial.y.unit == "mm"   ? 1e3
                                              : axial.y.unit == "µm" ? 1e6
                                              : axial.y.unit == "nm" ? 1e9
+                                             : axial.y.unit == "pm" ? 1e12
                                                                     : 1.0};
   if (tilts && !ball && !slides)
     axial.caption = pad ? "A tilted pad touches a face with its rim while its centre is still within the lines."
@@ -209,7 +210,7 @@ report::Section cost_section(const RunResult& result, const std::optional<Predic
 }
 
 // What the rung leaves out, by how much it thinks that matters, and what the other rungs say where they were asked.
-report::Section model_section(const std::string& leaves_out, const RunResult& result,
+report::Section model_section(const Mechanism& mechanism, const std::string& leaves_out, const RunResult& result,
                               const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
                               const std::string& steps) {
   report::Section section{.id = "model", .title = "What this model leaves out", .items = {report::Text{leaves_out}}};
@@ -240,8 +241,8 @@ report::Section model_section(const std::string& leaves_out, const RunResult& re
                                   {"Own estimate of its error in position", "%"},
                                   {"in boresight", "%"},
                                   {"Remark"}}};
-  const auto change = [](double other, double own) -> nlohmann::json {
-    if (own <= kRounding && other <= kRounding) return nullptr;  // nothing on both
+  const auto change = [&](double other, double own, const char* si_unit) -> nlohmann::json {
+    if (std::max(own, other) <= rounding_of(mechanism, si_unit)) return nullptr;  // nothing on both
     return error_cell(other / own - 1.0);
   };
   for (const Compared& other : others) {
@@ -250,10 +251,11 @@ report::Section model_section(const std::string& leaves_out, const RunResult& re
       continue;
     }
     const PointingIndices &a = other.result.index, &b = result.index;
-    table.rows.push_back({other.rung, change(a.position_error.max, b.position_error.max),
-                          change(a.position_error.rms, b.position_error.rms),
-                          change(a.boresight_error.max, b.boresight_error.max),
-                          change(a.boresight_error.rms, b.boresight_error.rms), 1e3 * other.result.cost.cpu_seconds,
+    table.rows.push_back({other.rung, change(a.position_error.max, b.position_error.max, "m"),
+                          change(a.position_error.rms, b.position_error.rms, "m"),
+                          change(a.boresight_error.max, b.boresight_error.max, "rad"),
+                          change(a.boresight_error.rms, b.boresight_error.rms, "rad"),
+                          1e3 * other.result.cost.cpu_seconds,
                           error_cell(other.result.error.model_of(PointingQuantity::position_error)),
                           error_cell(other.result.error.model_of(PointingQuantity::boresight_error)), ""});
   }
@@ -315,16 +317,16 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
     if (other.refusal.empty()) overlay.push_back({other.rung, &other.result});
   report::Section errors{.id = "errors", .title = "Pointing error", .items = {index_table(overlay)}};
   if (!result.time.empty()) {
-    errors.items.push_back(error_panels(overlay));
-    errors.items.push_back(difference_panels(overlay));
+    errors.items.push_back(error_panels(mechanism, overlay));
+    errors.items.push_back(difference_panels(mechanism, overlay));
   }
   document.sections.push_back(std::move(errors));
   if (!result.time.empty()) {
     report::Section motion{.id = "motion", .title = "Motion"};
     if (!result.frames.empty()) motion.items.push_back(mechanism_view(mechanism, result));
     motion.items.push_back(motion_panels(mechanism, overlay,
-                                         "Displacement of the centre of mass, Z-Y-X Euler angles from home, and "
-                                         "accelerations in world axes."));
+                                         "Position of the centre of mass in the world, Z-Y-X Euler angles from home, "
+                                         "and accelerations in world axes."));
     document.sections.push_back(std::move(motion));
   }
   if (mechanism.clearances() > 0) {
@@ -339,7 +341,7 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
       for (std::size_t c = 0; c < result.clearances.size(); ++c)
         document.sections.push_back(joint_section(mechanism, result, c));
   }
-  document.sections.push_back(model_section(leaves_out, result, others, axes, steps));
+  document.sections.push_back(model_section(mechanism, leaves_out, result, others, axes, steps));
   if (rung.pilot) document.sections.push_back(pilot_section(*rung.pilot));
   document.sections.push_back(cost_section(result, predictability));
   return document;

@@ -45,20 +45,30 @@ constexpr double kOfAnother =
 // What --compare hands on to rungs other than the one asked for: run_other().
 const std::vector<std::string> kReadByOthers = {"step", "formulation", "stabilisation"};
 
+// "heun", "one static balance an instant": without the word that summary.json has for no integrator.
+std::string how_it_goes(const std::string& integrator) {
+  const std::string none = "none: ";
+  return integrator.starts_with(none) ? integrator.substr(none.size()) : integrator;
+}
+
 void print(const Command& command, const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
            const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
            const std::optional<Predictability>& predictability, const MeasuredError& measured,
            const std::optional<RunParts>& parts, const IndexChoice& wanted,
            const std::optional<AccuracyAsked>& accuracy, const OutputDirectory& out) {
   tell("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
-       result.integrator, result.interrupted ? " (interrupted)" : "");
+       how_it_goes(result.integrator), result.interrupted ? " (interrupted)" : "");
   if (choice.pilot) tell("  rung: {}\n", choice.why);
   const double size = mechanism.characteristic_length();
   for (const std::string& line : error_lines(result, measured, size)) tell("  {}\n", line);
   if (result.start > 0.0) tell("  from {} on\n", readable(result.start, "s"));
-  for (const ContactSummary& c : result.contact)
-    tell("  {}: in contact {} of the time, {} impacts, penetration up to {}, contact forces up to {}\n", c.joint,
-         readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"), readable(c.max_force, "N"));
+  for (std::size_t k = 0; k < result.contact.size(); ++k) {
+    const ContactSummary& c = result.contact[k];
+    const std::string uncertainty = force_error_text(measured, result, k);
+    tell("  {}: in contact {} of the time, {}, penetration up to {}, contact forces up to {}{}\n", c.joint,
+         readable_share(c.contact_fraction), how_many(c.impacts, "impact"), readable(c.max_penetration, "m"),
+         readable(c.max_force, "N"), uncertainty.empty() ? "" : " " + uncertainty);
+  }
   if (parts)
     for (const std::string& line : parts_lines(*parts)) tell("  {}\n", line);
   // A warning says the same with what to do about it.
@@ -254,8 +264,7 @@ class RunVerb : public Verb {
                    step_error_sentence(measured, result.index, index, mechanism->characteristic_length()));
     for (const std::string& warning : material_warnings(assumed_by(command, *mechanism)))
       document.warnings.push_back(warning);
-    const auto accuracy =
-        cut_short ? std::optional<AccuracyAsked>{} : accuracy_asked(command, choice, result, index);
+    const auto accuracy = cut_short ? std::optional<AccuracyAsked>{} : accuracy_asked(command, choice, result, index);
     if (accuracy) summary["accuracy"] = accuracy_json(*accuracy);
     if (parts) {
       summary["parts"] = parts_json(*parts);

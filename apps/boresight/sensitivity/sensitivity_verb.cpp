@@ -78,8 +78,8 @@ class SensitivityVerb : public Verb {
     store.use_rung(model.rung(), model.step());
 
     if (!command.quiet) {
-      tell("{}: {} runs ({} rows of {}; {})\n", mechanism->name(), plan.runs(), plan.rows, plan.runs_per_row(),
-           plan.design.text());
+      tell("{}: {} ({} of {}; {})\n", mechanism->name(), how_many(plan.runs(), "run"), how_many(plan.rows, "row"),
+           plan.runs_per_row(), plan.design.text());
       if (plan.method == SensitivityMethod::sobol && plan.groups.size() > kManyGroups)
         tell("  {} parameters or groups: method = \"morris\" finds those that matter with some 32 samples of {} runs\n",
              plan.groups.size(), plan.groups.size() + 1);

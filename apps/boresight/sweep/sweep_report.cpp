@@ -77,25 +77,26 @@ report::Chart against_parameter(const std::string& title, const std::string& lab
 }
 
 // Why there is no panel of the boresight error, or "" where there is one.
-std::string rotations_note(const SweepResult& result) {
+std::string rotations_note(const Mechanism& mechanism, const SweepResult& result) {
   double rotation = 0.0;
   for (const SweepPoint& p : result.points) rotation = std::max(rotation, p.result.index.boresight_error.max);
-  return rotation > kRounding ? "" : "The boresight error is zero to rounding and not drawn.";
+  return rotation > rounding_of(mechanism, "rad") ? "" : "The boresight error is zero to rounding and not drawn.";
 }
 
-report::Section index_section(const Study& study, const SweepPlan& plan, const SweepResult& result) {
+report::Section index_section(const Mechanism& mechanism, const Study& study, const SweepPlan& plan,
+                              const SweepResult& result) {
   report::Section section{.id = "index",
                           .title = "The index against the parameter",
                           .intro = "The study's index is the " + study.index.title() + ". " + study.index.definition()};
   if (const std::string drawn = drawn_combinations(plan).sentence(plan); !drawn.empty()) section.intro += " " + drawn;
-  report::Panels panels{.title = "Index", .caption = rotations_note(result), .columns = 2};
+  report::Panels panels{.title = "Index", .caption = rotations_note(mechanism, result), .columns = 2};
   const auto of = [](const char* quantity, const char* statistic) {
     return [choice = IndexChoice{quantity, statistic}](const RunResult& r) { return choice.of(r.index); };
   };
   panels.panels.push_back(
       against_parameter("Position error", "position error", "m", plan, result,
                         {{"maximum", of("position_error", "max")}, {"RMS", of("position_error", "rms")}}));
-  if (rotations_note(result).empty())
+  if (rotations_note(mechanism, result).empty())
     panels.panels.push_back(
         against_parameter("Boresight error", "boresight error", "rad", plan, result,
                           {{"maximum", of("boresight_error", "max")}, {"RMS", of("boresight_error", "rms")}}));
@@ -223,7 +224,7 @@ report::Document sweep_report(const Command& command, const Study& study, const 
 
   std::vector<Overlay> overlays = overlays_of(plan, result);
   if (!overlays.empty()) {
-    document.sections.push_back(index_section(study, plan, result));
+    document.sections.push_back(index_section(mechanism, study, plan, result));
     std::vector<Overlay> drawn = overlays;
     drawn.erase(std::remove_if(drawn.begin(), drawn.end(), [](const Overlay& o) { return o.result->time.empty(); }),
                 drawn.end());
@@ -231,11 +232,12 @@ report::Document sweep_report(const Command& command, const Study& study, const 
       document.sections.push_back(
           {.id = "motion",
            .title = "Motion, point over point",
-           .items = {motion_panels(mechanism, drawn,
-                                   std::string("Displacement of the centre of mass, Z-Y-X Euler angles from home, "
-                                               "accelerations in world axes") +
-                                       (papers ? ": the twelve panels of Sun et al., Fig. 6 and Fig. 7." : ".")),
-                     difference_panels(drawn), error_panels(drawn)}});
+           .items = {
+               motion_panels(mechanism, drawn,
+                             std::string("Position of the centre of mass in the world, Z-Y-X Euler angles from home, "
+                                         "accelerations in world axes") +
+                                 (papers ? ": the twelve panels of Sun et al., Fig. 6 and Fig. 7." : ".")),
+               difference_panels(mechanism, drawn), error_panels(mechanism, drawn)}});
     document.sections.push_back(contact_section(mechanism, plan, result, overlays));
     if (papers) {
       const std::vector<PublishedFinding> published = published_findings(mechanism, plan, result);

@@ -14,6 +14,7 @@
 namespace boresight::app {
 namespace {
 
+constexpr double kRoundedTo = 1e-12;        // [m or rad]
 const char* const kNotKnown = "not known";  // no infinity is a length
 
 // A unit, its size in SI, and the value from which on it is used (a tenth of a millimetre is still said in
@@ -26,8 +27,9 @@ struct Scale {
 
 // Largest first. The second one is what a zero is said in.
 const std::map<std::string, std::vector<Scale>> kScales = {
-    {"m", {{"m", 1.0, 1.0}, {"mm", 1e-3, 0.9e-4}, {"µm", 1e-6, 1e-7}, {"nm", 1e-9, 0.0}}},
-    {"rad", {{"rad", 1.0, 0.1}, {"mrad", 1e-3, 1e-4}, {"µrad", 1e-6, 1e-7}, {"nrad", 1e-9, 0.0}}},
+    {"m", {{"m", 1.0, 1.0}, {"mm", 1e-3, 0.9e-4}, {"µm", 1e-6, 1e-7}, {"nm", 1e-9, 1e-10}, {"pm", 1e-12, 0.0}}},
+    {"rad",
+     {{"rad", 1.0, 0.1}, {"mrad", 1e-3, 1e-4}, {"µrad", 1e-6, 1e-7}, {"nrad", 1e-9, 1e-10}, {"prad", 1e-12, 0.0}}},
     {"N", {{"kN", 1e3, 1e3}, {"N", 1.0, 1.0}, {"mN", 1e-3, 0.0}}},
     {"m/s", {{"m/s", 1.0, 0.5}, {"mm/s", 1e-3, 1e-4}, {"µm/s", 1e-6, 0.0}}},
     {"s", {{"h", 3600.0, 5400.0}, {"min", 60.0, 90.0}, {"s", 1.0, 0.5}, {"ms", 1e-3, 1e-4}, {"µs", 1e-6, 0.0}}},
@@ -64,7 +66,8 @@ std::string readable(double value, const std::string& si_unit) {
   if (!std::isfinite(value)) return kNotKnown;
   const DisplayUnit unit = display_unit(si_unit, value);
   // A length or angle this small is the rounding of the computation.
-  if ((si_unit == "m" || si_unit == "rad") && value != 0.0 && std::abs(value) < 1e-10) return "below 0.1 " + unit.name;
+  if ((si_unit == "m" || si_unit == "rad") && value != 0.0 && std::abs(value) < kRoundedTo)
+    return "below 1 " + unit.name;
   return digits(value * unit.per_si) + (unit.name.empty() ? "" : " " + unit.name);
 }
 
@@ -83,14 +86,30 @@ std::string readable_as(double value, const std::string& si_unit, const std::str
   return digits(value * unit.per_si) + " " + written;
 }
 
+std::string readable_of_error(double value, const std::string& said_unit) {
+  constexpr double kInPercent = 1e-3;
+  if (said_unit != "1" || !std::isfinite(value)) return readable(value, said_unit);
+  return std::abs(value) < kInPercent ? digits(1e6 * value) + " ppm" : readable_share(value);
+}
+
 std::string readable_arcsec(double radians) {
   if (!std::isfinite(radians)) return kNotKnown;
-  if (radians != 0.0 && std::abs(radians) < 1e-10) return "below 0.0001 arcsec";
+  if (radians != 0.0 && std::abs(radians) < kRoundedTo) return "below 0.000001 arcsec";
   return digits(radians * 180.0 / std::numbers::pi * 3600.0) + " arcsec";
 }
 std::string readable_share(double share) { return std::isfinite(share) ? digits(100.0 * share) + " %" : kNotKnown; }
+std::string readable_near_all(double share) {
+  const double lacks = 100.0 * (1.0 - share);
+  if (!std::isfinite(share) || !(lacks > 1e-12)) return readable_share(share);
+  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(lacks) + 1e-9)));
+  const double per_percent = std::pow(10.0, decimals);
+  return fmt::format("{:.{}f} %", std::floor(100.0 * share * per_percent + 1e-6) / per_percent, decimals);
+}
 std::string readable_error(double relative) {
   return std::abs(relative) < kSaidAsMultiple ? readable_share(relative) : relative_text(relative);
+}
+std::string how_many(std::size_t count, const std::string& one, const std::string& several) {
+  return fmt::format("{} {}", count, count == 1 ? one : several.empty() ? one + "s" : several);
 }
 std::string readable_number(double value) { return std::isfinite(value) ? digits(value) : kNotKnown; }
 

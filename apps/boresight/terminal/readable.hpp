@@ -13,10 +13,16 @@ std::string readable(double value, const std::string& si_unit);
 // In the unit that the user wrote ("arcsec"), unless the number is long or full of zeros there; "": readable().
 std::string readable_as(double value, const std::string& si_unit, const std::string& written);
 
+// The value of a standing error in its unit ("m", "rad", "K"); of a scale, "1", in ppm or percent.
+std::string readable_of_error(double value, const std::string& said_unit);
 std::string readable_arcsec(double radians);
-std::string readable_share(double share);     // 0.937 is "93.7 %"
+std::string readable_share(double share);  // 0.937 is "93.7 %"
+// With two digits of what it lacks of all, rounded down so that it may follow "at least": 0.962351 is "96.2 %", 0.999731 "99.973 %".
+std::string readable_near_all(double share);
 std::string readable_error(double relative);  // as a share, or in words where it is many times the value itself
 std::string readable_number(double value);
+// "1 impact", "2 impacts"; `several`: of nouns that take no s.
+std::string how_many(std::size_t count, const std::string& one, const std::string& several = "");
 
 // The unit in which an axis or a column up to `largest` (SI) is drawn, and how many of it make one SI unit.
 struct DisplayUnit {

@@ -107,7 +107,10 @@ void bind_mechanism(py::module_& module) {
           "Every number that may be varied, by its path: \"clearance.F1.radial\", ...")
       .def(
           "unit",
-          [](const Mechanism& m, const std::string& path) { return ParameterPath(m.description(), path).unit(); },
+          [](const Mechanism& m, const std::string& path) {
+            const ParameterPath place(m.description(), path);
+            return names_scales(m.description(), path) ? std::string("1") : place.unit();
+          },
           py::arg("path"), "The SI unit of the number at this path; \"1\" of a pure number.")
       .def(
           "parameters",

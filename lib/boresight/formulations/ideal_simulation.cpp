@@ -37,6 +37,7 @@ struct Failure {
   double t = 0.0;
   std::string reason;        // empty: the motion grew without bound
   bool unconfirmed = false;  // one run came to its end, and no second one
+  bool too_long = false;     // shorter steps lead further, and would be too many
 };
 
 // The mechanism without clearance as an initial value problem, in joint coordinates: planar loops, redundant when drawn in
@@ -76,12 +77,12 @@ class ClosedMechanism {
 
 using Knots = std::vector<IdealState>;
 
-// RK4 in equal steps: not the Integrator's loop, because the bodies are brought back into their joints after each.
-std::optional<Knots> follow_explicit(const Task& task, int steps, Failure& failure) {
+// RK4 in equal steps to `end`: not the Integrator's loop, because the bodies are brought back into their joints after each.
+std::optional<Knots> follow_explicit(const Task& task, double end, int steps, Failure& failure) {
   ClosedMechanism closed(task);
   VecX y = closed.start();
   ExplicitRungeKutta method(classical_rk4(), y.size());
-  const double h = task.mechanism.duration() / steps;
+  const double h = end / steps;
   Knots knots;
   knots.reserve(steps + 1);
   const auto derivative = [&](double t, const VecX& state, VecX& dy) { closed.derivative(t, state, dy); };
@@ -159,8 +160,18 @@ double difference(const Knots& coarse, const Knots& fine, double length) {
   return worst;
 }
 
+// Whether far shorter steps lead past where these failed: the motion is sound there, and they are too long for it.
+bool fails_by_its_step(const Task& task, const Failure& failure, double step) {
+  constexpr double kFiner = 8.0;
+  constexpr int kFewest = 1 << 16, kMost = 1 << 19;
+  const double end = std::min(task.mechanism.duration(), 1.5 * failure.t + 2.0 * step);
+  const double steps = std::max<double>(kFewest, kFiner * end / step);
+  Failure again;
+  return steps <= kMost && follow_explicit(task, end, static_cast<int>(steps), again).has_value();
+}
+
 // Steps halved until two motions agree. Those that blow up are too long; but a motion that fails at the same time whatever the
-// step has no step that holds.
+// step has no step that holds. failure.too_long: nor has one that is followed only by more steps than these.
 std::optional<IdealMotion> explicit_motion(const Task& task, int fewest, int most, Failure& failure) {
   constexpr int kAlike = 3;
   constexpr double kSameTime = 0.01;
@@ -168,7 +179,7 @@ std::optional<IdealMotion> explicit_motion(const Task& task, int fewest, int mos
   Failure before;
   int alike = 0;
   for (int steps = fewest; steps <= most; steps *= 2) {
-    std::optional<Knots> fine = follow_explicit(task, steps, failure);
+    std::optional<Knots> fine = follow_explicit(task, task.mechanism.duration(), steps, failure);
     if (coarse && fine) {
       // Fourth order: the finer run's error is a fifteenth of the difference.
       const double error = difference(*coarse, *fine, task.mechanism.characteristic_length()) / 15.0;
@@ -177,11 +188,13 @@ std::optional<IdealMotion> explicit_motion(const Task& task, int fewest, int mos
     }
     if (!fine) {
       alike = before.t > 0.0 && std::abs(failure.t - before.t) < kSameTime * failure.t ? alike + 1 : 0;
-      if (alike == kAlike) return std::nullopt;
+      if (alike == kAlike && !fails_by_its_step(task, failure, task.mechanism.duration() / steps)) return std::nullopt;
       before = failure;
     }
     coarse = std::move(fine);
   }
+  failure.too_long = coarse || (alike == 0 && failure.reason.empty()) ||
+                     fails_by_its_step(task, failure, task.mechanism.duration() / most);
   return std::nullopt;
 }
 
@@ -244,13 +257,24 @@ IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameter
 }
 
 std::string doubt_of(const IdealMotion& motion) {
-  if (!(motion.error() > IdealMotion::kAccuracy)) return "";
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "the ideal motion is known to %.1e of the mechanism's size, not to %.0e as it was sought; so are the "
-                "deviations from it",
-                motion.error(), IdealMotion::kAccuracy);
-  return text;
+  std::string doubt;
+  char text[250];
+  if (motion.error() > IdealMotion::kAccuracy) {
+    std::snprintf(text, sizeof text,
+                  "the ideal motion is known to %.1e of the mechanism's size, not to %.0e as it was sought; so are the "
+                  "deviations from it",
+                  motion.error(), IdealMotion::kAccuracy);
+    doubt = text;
+  }
+  if (motion.lost().empty()) return doubt;
+  const LostMotion& first = motion.lost().front();
+  const std::size_t more = motion.lost().size() - 1;
+  std::snprintf(text, sizeof text, "%sthe motion passes a singular pose at t = %.4g s%s: ", doubt.empty() ? "" : "; ",
+                first.t,
+                more == 0 ? "" : (", and " + std::to_string(more) + (more == 1 ? " other" : " others")).c_str());
+  return doubt + text + first.description +
+         ". The drawn mechanism is taken to go on smoothly; a real one may change to another branch there, and no "
+         "figure here counts that in";
 }
 
 IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& parameters, const SimulationSize& most) {
@@ -286,6 +310,15 @@ IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& param
     throw ComputationError(
         "the ideal motion, simulated without clearance: one run came to its end, and no second one that could tell how "
         "well it is known; shorten motion.duration to what has to be seen");
+  if (failure.too_long) {
+    char text[250];
+    std::snprintf(
+        text, sizeof text,
+        "the ideal motion of %.6g s, simulated without clearance, is too long to follow: it takes more than %d "
+        "steps; shorten motion.duration to what has to be seen",
+        mechanism.duration(), most.explicit_steps);
+    throw ComputationError(text);
+  }
   if (!failure.reason.empty())
     throw ComputationError("the ideal motion, simulated without clearance: " + failure.reason);
   throw ComputationError("the ideal motion, simulated without clearance, grows without bound before t = " +

@@ -30,7 +30,7 @@ struct SimulationSize {
 // what it is wrong by.
 IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& parameters, const SimulationSize& most = {});
 
-// For a result's warnings: that the motion is not known as well as it was sought. Empty where it is.
+// For a result's warnings: that the motion is not known as well as it was sought, or passes singular poses. Empty where neither is so.
 std::string doubt_of(const IdealMotion& motion);
 
 // A sample's mechanism as it is built, and its motion without clearance.

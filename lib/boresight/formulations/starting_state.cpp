@@ -74,7 +74,11 @@ VecX nearest_motion(const MatX& A, const VecX& b, const MatX& C, const VecX& c) 
   const MatX left = MatX::Identity(A.cols(), A.cols()) - back * A;
   // The trace of a projection is how many directions it keeps; where A leaves none, what is here is rounding.
   if (!(left.trace() > 0.5)) return u;
-  return u + left * solve_least(MatX(C * left), VecX(c - C * u), kRankTolerance);
+  // What moves there may show in none of the coordinates, as a body that no joint holds does: what C says of it is rounding then.
+  const MatX seen = C * left;
+  const double share = seen.norm() / C.norm();
+  if (!(share > kRankTolerance)) return u;
+  return u + left * solve_least(seen, VecX(c - C * u), kRankTolerance / share);
 }
 
 // The constraints' values or rates with lengths in units of the mechanism's own.
@@ -137,10 +141,15 @@ void set_rates(const Mechanism& mechanism, ConstraintSystem& system, const FreeC
   for (BodyMotion& body : state.bodies) body.v = body.w = Vec3::Zero();
   if (b.isZero(0.0)) return;  // at rest
   const VecX u = nearest_motion(A, b, row, VecX::Zero(row.rows()));
-  if ((A * u - b).norm() > 1e-8 * b.norm())
+  if ((A * u - b).norm() > 1e-8 * b.norm()) {
+    if (!rates.empty() && constraint_rank(mechanism, system) == 6 * mechanism.bodies())
+      throw InputError(rates.front().origin, "initial.rates",
+                       "rates where the joints together leave nothing free to move",
+                       "joints that leave some motion; axes meant to be parallel or to meet may differ by a little");
     throw InputError(rates.empty() ? mechanism.description().motion.origin : rates.front().origin,
                      rates.empty() ? "motion" : "initial.rates", "rates that contradict each other or the joints",
                      "rates that the joints allow together");
+  }
   for (int k = 0; k < mechanism.bodies(); ++k) {
     state.bodies[k].v = length * u.segment<3>(6 * k);
     state.bodies[k].w = u.segment<3>(6 * k + 3);

@@ -131,7 +131,8 @@ const KeyTable& contact_keys() {
           number("restitution")
               .otherwise(p.restitution)
               .between(0.0, 1.0, "a number from 0 to 1")
-              .says("Coefficient of restitution e: speed after an impact over speed before it. Not of a journal's end faces: these are "
+              .says("Coefficient of restitution e: speed after an impact over speed before it. Not of a journal's end "
+                    "faces: these are "
                     "springs without losses (Sun et al., Eq. 32), which give back all of it."),
           quantities("young", kYoungRange)
               .named({"journal", "sleeve"})

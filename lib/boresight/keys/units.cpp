@@ -2,6 +2,7 @@
 
 #include <udunits2.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -156,22 +157,54 @@ bool take_number(std::string_view& text, double& value) {
   return true;
 }
 
+// Whether it is a unit whose numbers count from a zero of their own, as those of a Celsius thermometer do.
+bool counts_from_a_zero(std::string_view text) {
+  if (!is_written_as_unit(text)) return false;
+  const std::lock_guard<std::mutex> guard(udunits_lock());
+  const UnitPtr parsed(ut_parse(unit_system(), std::string(text).c_str(), UT_UTF8));
+  Unit unit;
+  return parsed != nullptr && ut_accept_visitor(parsed.get(), &kVisitor, &unit) == UT_SUCCESS && !unit.plain;
+}
+
 constexpr std::array<const char*, 28> kCommonUnits = {
     "mm", "um", "m",  "km", "deg", "arcmin", "arcsec", "rad", "mrad", "urad",   "rpm",    "rad/s", "deg/s", "Hz",
     "s",  "ms", "kg", "g",  "N",   "kN",     "N m",    "N/m", "GPa",  "kg/m^3", "kg m^2", "m/s",   "mm/s",  "m/s^2"};
 
+// Those that would do: nobody means an angle who writes a temperature.
+std::vector<std::string> common_units_of(const SiUnit& expected) {
+  std::vector<std::string> fitting;
+  for (std::string_view rest = expected.unit; !rest.empty();) {
+    const std::string_view one = rest.substr(0, rest.find('|'));
+    const Unit* si = known_unit(one);
+    for (const char* common : kCommonUnits)
+      if (const Unit* unit = known_unit(common); si != nullptr && unit != nullptr && unit->powers == si->powers)
+        fitting.push_back(common);
+    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
+  }
+  return fitting;
+}
+
+// "asec" is an attosecond, where an angle is asked for an arcsec; "kg" is what it says.
+std::string read_as_another(std::string_view text, const SiUnit& expected) {
+  const std::string written(text);
+  if (std::find(kCommonUnits.begin(), kCommonUnits.end(), text) != kCommonUnits.end() || written.size() < 3) return "";
+  const std::string nearest = nearest_name(written, common_units_of(expected));
+  return 2 * edit_distance(written, nearest) <= written.size() ? nearest : "";
+}
+
 double convert(std::string_view unit_text, const SiUnit& expected, const std::string& shown) {
   const Unit* unit = known_unit(unit_text);
-  if (unit == nullptr) {
+  if (unit == nullptr && counts_from_a_zero(unit_text))
+    throw ValueFault(shown + ", whose unit counts from a zero of its own", expectation(expected));
+  if (unit == nullptr)
     throw ValueFault(shown + " with the unknown unit " + in_quotes(unit_text), expectation(expected),
-                     nearest_name(std::string(unit_text), kCommonUnits));
-  }
+                     nearest_name(std::string(unit_text), common_units_of(expected)));
   for (std::string_view rest = expected.unit;;) {
     const std::string_view one = rest.substr(0, rest.find('|'));
     const Unit* si = known_unit(one);
     if (si == nullptr) throw ComputationError("UDUNITS-2 does not know the unit " + std::string(one));
     if (unit->powers == si->powers) return unit->scale / si->scale;
-    if (one.size() == rest.size()) throw ValueFault(shown, expectation(expected));
+    if (one.size() == rest.size()) throw ValueFault(shown, expectation(expected), read_as_another(unit_text, expected));
     rest.remove_prefix(one.size() + 1);
   }
 }
@@ -184,7 +217,10 @@ std::string in_quotes(std::string_view text) {
   return "\"" + shown + "\"";
 }
 
-std::string expectation(const SiUnit& unit) { return std::string(unit.what) + " such as \"" + unit.example + "\""; }
+std::string expectation(const SiUnit& unit) {
+  if (*unit.example == '\0') return std::string(unit.what) + " in " + unit.unit;
+  return std::string(unit.what) + " such as \"" + unit.example + "\"";
+}
 
 bool parse_number(std::string_view text, double& value) {
   text = trimmed(text);
@@ -218,11 +254,13 @@ SiUnit unit_called(const char* si_unit, bool or_share) {
   const std::string_view called = si_unit;
   if (or_share && called == kAngle.unit) return kShareOrAngle;
   if (or_share && called == kLength.unit) return kShareOrLength;
-  static const SiUnit known[] = {kLength,  kMass,      kAcceleration, kSpeed, kElasticModulus,
-                                 kDensity, kStiffness, kDamping,      kRatio};
+  static const SiUnit known[] = {kLength,         kMass,     kInertia,      kDuration,  kAngle,
+                                 kAngularRate,    kSpeed,    kAcceleration, kForce,     kTorque,
+                                 kStiffness,      kDamping,  kFrequency,    kDensity,   kPerLength,
+                                 kElasticModulus, kPerSpeed, kTemperature,  kExpansion, kRatio};
   for (const SiUnit& unit : known)
     if (called == unit.unit) return unit;
-  return {"a value", si_unit, si_unit};
+  return {"a value", si_unit, ""};
 }
 
 }  // namespace boresight

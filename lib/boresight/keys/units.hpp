@@ -13,7 +13,8 @@
 
 namespace boresight {
 
-// What a value has to be: in words, its SI unit (or two, "rad|1", of which either will do), and an example for the error text.
+// What a value has to be: in words, its SI unit (or two, "rad|1", of which either will do), and an example for the error text, "" where
+// nobody has one.
 struct SiUnit {
   const char* what;
   const char* unit;

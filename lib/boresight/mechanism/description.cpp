@@ -51,4 +51,8 @@ bool is_scale(const ErrorDescription& error) {
   return moves;
 }
 
+const char* said_unit_of(const ErrorDescription& error, const std::vector<JointDescription>& joints) {
+  return is_scale(error) ? "1" : unit_of(error, joints);
+}
+
 }  // namespace boresight

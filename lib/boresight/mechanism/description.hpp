@@ -178,6 +178,8 @@ struct ErrorDescription {
 const char* unit_of(const ErrorDescription& error, const std::vector<JointDescription>& joints);
 // Whether it is a share of what its drive does: its law is proportional to the drive's coordinate.
 bool is_scale(const ErrorDescription& error);
+// As unit_of(), and "1" of a scale: how its value is said to people, a share of what the drive does, whatever unit it is computed in.
+const char* said_unit_of(const ErrorDescription& error, const std::vector<JointDescription>& joints);
 
 struct MechanismDescription {
   std::string name;

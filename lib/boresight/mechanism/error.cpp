@@ -38,6 +38,11 @@ InputError::InputError(const Origin& where, const std::string& which, const std:
       expected(what_was_expected),
       nearest(nearest_known) {}
 
+bool same_but_for_capitals(const std::string& a, const std::string& b) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return small(x) == small(y); });
+}
+
 // Optimal string alignment: characters inserted, removed or replaced, and neighbours swapped, one each; two rows are kept.
 // Names longer than 200 characters are compared by their beginnings.
 std::size_t edit_distance(const std::string& a, const std::string& b) {

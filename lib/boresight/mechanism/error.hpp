@@ -26,17 +26,19 @@ class ComputationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The name among `candidates` that is closest to `name` by edit distance; "" if none is near.
+// The name among `candidates` that is closest to `name`: the same in other letters, small for large, else by edit distance; "" if none is near.
 template <typename Names>
 std::string nearest_name(const std::string& name, const Names& candidates);
 
 std::size_t edit_distance(const std::string& a, const std::string& b);
+bool same_but_for_capitals(const std::string& a, const std::string& b);
 
 template <typename Names>
 std::string nearest_name(const std::string& name, const Names& candidates) {
   std::string best;
   std::size_t best_distance = name.size() / 2 + 2;
   for (const auto& candidate : candidates) {
+    if (same_but_for_capitals(name, candidate)) return candidate;
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < best_distance) {
       best_distance = distance;

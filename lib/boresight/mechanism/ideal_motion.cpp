@@ -5,44 +5,19 @@
 #include <limits>
 #include <numbers>
 
+#include "boresight/mechanism/continuation.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/motion_density.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
-#include "boresight/mechanism/unfollowed_motion.hpp"
 
 namespace boresight {
 namespace {
-
-constexpr const char* kFollowing = "following the ideal motion";
 
 std::string time_text(double t) {
   char text[40];
   std::snprintf(text, sizeof text, "t = %.6g s", t);
   return text;
-}
-
-// The finest grid step that continuation may take: far below what any motion needs that is not singular, and a time that t still
-// tells apart.
-double shortest_step(double duration) { return std::max(std::min(1e-7 * duration, 1e-7), 1e-15 * duration); }
-
-// From state.t to t by continuation: the step is halved where Newton fails. Returns false, with `step` what led on, where that took
-// more than `most_steps` steps.
-bool follow(IdealSolver& solver, double t, IdealState& state, const Mechanism& mechanism, int most_steps,
-            double& step) {
-  step = t - state.t;
-  for (int steps = 0; state.t < t;) {
-    const double next = t - state.t <= step * 1.0000001 ? t : state.t + step;
-    if (solver.solve(next, state)) {
-      if (++steps > most_steps) return false;
-      if (state.t < t) step *= 2.0;
-    } else if ((step *= 0.5) < shortest_step(mechanism.duration())) {
-      throw ComputationError("the ideal motion cannot be followed beyond " + time_text(state.t) + ": " +
-                             why_not_followed(mechanism, state.t, shortest_step(mechanism.duration())));
-    }
-    work_reached(kFollowing, state.t / mechanism.duration());
-  }
-  return true;
 }
 
 // Largest difference between the interpolated and an exact state, in characteristic lengths and radians.
@@ -177,7 +152,12 @@ IdealMotion IdealMotion::kinematic(const Mechanism& mechanism) {
       }
       if (!fine) coarse_at = from;
     }
-    if (coarse_at < 0.0) return IdealMotion(mechanism, knots, worst, read_drives);
+    if (coarse_at < 0.0) {
+      IdealMotion motion(mechanism, knots, worst, read_drives);
+      // A built mechanism's motion is nearly that of the drawn one, which is looked at once for all of them.
+      if (!mechanism.built()) motion.lost_ = lost_motions(mechanism, motion);
+      return motion;
+    }
     if (2 * intervals > most) refuse_density(mechanism, coarse_at, 0.5 * spacing);
   }
 }

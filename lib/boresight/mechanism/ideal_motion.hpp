@@ -13,6 +13,7 @@
 
 #include "boresight/math/quintic_spline.hpp"
 #include "boresight/mechanism/ideal_solver.hpp"
+#include "boresight/mechanism/lost_motion.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 
 namespace boresight {
@@ -32,6 +33,9 @@ class IdealMotion {
   double error() const { return error_; }
   static constexpr double kAccuracy = 1e-9;  // that it is sought with; the kinematic one with a thousandth of it
 
+  // The singular poses that it passes, known of motions by kinematics of mechanisms as drawn.
+  const std::vector<LostMotion>& lost() const { return lost_; }
+
   // Laws of all joints at t (zero where not driven); `laws` must have one entry per joint.
   void drive_laws(double t, std::vector<TimeValue>& laws) const;
   // One body's motion; acceleration may be null.
@@ -44,6 +48,7 @@ class IdealMotion {
 
   double duration_ = 0.0, error_ = 0.0;
   int knots_ = 0, bodies_ = 0;
+  std::vector<LostMotion> lost_;
   QuinticSpline bodies_spline_;  // 7 numbers a body: p_WB, then the quaternion w x y z
   std::vector<int> driven_;
   QuinticSpline drive_spline_;              // of driven_ where laws were read off a prescribed pose

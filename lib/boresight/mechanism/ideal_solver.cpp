@@ -197,14 +197,16 @@ void IdealSolver::start(IdealState& state) {
   }
   laws_at(0.0, 0.0);
   system_.evaluate(state.bodies, laws_);
-  const RankAnalysis rank = analyse_rank(mechanism_, system_);
-  if (rank.rank < rank.columns) {
-    throw ComputationError("at home, with the prescribed motion held, " + std::to_string(rank.columns - rank.rank) +
+  // Every sample of a study starts so: what motion is left, for many times the work, is asked where one is.
+  const int rank = constraint_rank(mechanism_, system_), columns = 6 * system_.bodies();
+  if (rank < columns) {
+    const VecX free = analyse_rank(mechanism_, system_).least_resisted;
+    throw ComputationError("at home, with the prescribed motion held, " + std::to_string(columns - rank) +
                            " freedom(s) remain: \"" + m.bodies[mechanism_.boresight_body()].name + "\" " +
-                           describe_motion(mechanism_, rank.least_resisted, mechanism_.boresight_body()) +
+                           describe_motion(mechanism_, free, mechanism_.boresight_body()) +
                            "; drive them, or describe the motion by [initial] rates");
   }
-  system_.set_redundant(rank.rank < rank.rows);
+  system_.set_redundant(rank < system_.row_count());
 
   if (!newton(state)) throw ComputationError(left_open(mechanism_, system_));
   const IdealState home = state;

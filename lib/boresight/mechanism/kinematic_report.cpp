@@ -8,6 +8,7 @@
 
 #include "boresight/math/singular_values.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/ideal_motion.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/motion_density.hpp"
@@ -17,9 +18,6 @@
 namespace boresight {
 namespace {
 
-// Below this share of the largest singular value a pose is called singular: locks that weak are moved by play and
-// elasticity by more than they hold.
-constexpr double kSingular = 1e-6;
 // Poses are looked at once in so many states of the ideal motion's table, where its fastest vibration turns by about half a radian;
 // and so many at most.
 constexpr int kKnotsBetweenPoses = 8, kMostPoses = 2001;
@@ -217,16 +215,11 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
       report.redundant_rows = rank.rows - report.rank;
       report.mobility = rank.columns - report.rank;
     }
-    const RankAnalysis r = analyse_rank(mechanism, driven);
+    const RankAnalysis r = analyse_rank(mechanism, driven, false);
     ConditioningSample sample{t, r.weakest, 0.0, 0.0};
     const bool singular = r.weakest < kSingular * r.largest;
     if (singular) {
-      if (!inside_singular)
-        report.lost.push_back({t,
-                               '"' + m.bodies[mechanism.boresight_body()].name + "\" " +
-                                   describe_motion(mechanism, r.least_resisted, mechanism.boresight_body()) +
-                                   " while every drive stands still",
-                               r.weakest / r.largest});
+      if (!inside_singular) report.lost.push_back(lost_motion(mechanism, driven, t, false));
     } else {
       driven.set_redundant(r.rank < r.rows);
       if (driven.factor(weight)) conditioning(mechanism, driven, weight, sample);
@@ -234,6 +227,22 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
     inside_singular = singular;
     report.along.push_back(sample);
   }
+  // And those that lie between.
+  if (ideal)
+    for (const LostMotion& between : ideal->lost()) {
+      const auto near = [&](const LostMotion& other) {
+        return std::abs(other.t - between.t) < mechanism.duration() / (samples - 1);
+      };
+      if (std::none_of(report.lost.begin(), report.lost.end(), near)) report.lost.push_back(between);
+    }
+  std::sort(report.lost.begin(), report.lost.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+  const bool jointed = std::any_of(m.joints.begin(), m.joints.end(),
+                                   [](const JointDescription& j) { return j.type != JointType::fixed; });
+  if (report.mobility == 0 && report.drives == 0 && jointed && !m.motion.pose)
+    report.findings.push_back(
+        "nothing can move: the joints together leave no freedom, and none is driven; if they should, axes that are "
+        "meant "
+        "to be parallel or to meet may differ by a little");
   for (const LostMotion& lost : report.lost)
     report.findings.push_back("singular at t = " + number(lost.t) + " s: " + lost.description);
   if (report.redundant_rows > 0)
@@ -241,6 +250,43 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
                               " constraint row(s) are redundant: motion and clearance forces are unique, the ideal "
                               "reactions inside the redundant loops are not");
   return report;
+}
+
+void look_along(const Mechanism& mechanism, const IdealMotion& motion, KinematicReport& report, int samples) {
+  ConstraintSystem system(mechanism, {.clearance = ClearanceRows::closed});
+  const std::vector<TimeValue> laws(mechanism.joints());
+  IdealState state;
+  const auto values_at = [&](double t) {
+    motion.state(t, state);
+    system.evaluate(state.bodies, laws);
+    return singular_values(scaled_rows(system.dense_jacobian(), mechanism.characteristic_length()));
+  };
+  // What is free anywhere else is not lost: the last value that is not zero there tells.
+  motion.state(generic_instant(0.0, motion.duration()), state);
+  system.evaluate(state.bodies, laws);
+  const int rank = constraint_rank(mechanism, system);
+  if (rank == 0) return;
+  const auto lock = [&](double t) {
+    const VecX values = values_at(t);
+    return values[rank - 1] / values[0];
+  };
+  const auto time = [&](int k) { return motion.duration() * k / (samples - 1); };
+  std::vector<double> locks;
+  for (int k = 0; k < samples; ++k) {
+    work_reached("checking poses along the motion", static_cast<double>(k) / samples);
+    const VecX values = values_at(time(k));
+    report.along.push_back({time(k), values[rank - 1], 0.0, 0.0});
+    locks.push_back(values[rank - 1] / values[0]);
+  }
+  double found_until = -1.0;
+  for (int k = 0; k < samples; ++k) {
+    const int before = std::max(k - 1, 0), after = std::min(k + 1, samples - 1);
+    if (!may_be_zero_near(locks[k], locks[before], locks[after])) continue;
+    const double t = locks[k] < kSingular ? time(k) : weakest_between(time(before), time(after), lock);
+    if (t <= found_until || !(lock(t) < kSingular)) continue;
+    report.passed.push_back(t);
+    found_until = time(after);
+  }
 }
 
 }  // namespace boresight

@@ -4,15 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "boresight/mechanism/lost_motion.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 
 namespace boresight {
-
-struct LostMotion {
-  double t = 0.0;           // [s]
-  std::string description;  // "platform turns about (0, 0, 1) while every drive stands still"
-  double measure = 0.0;     // smallest singular value over the largest, lengths scaled; 0 at the singularity
-};
 
 struct ConditioningSample {
   double t = 0.0;
@@ -31,9 +26,15 @@ struct KinematicReport {
   std::vector<ConditioningSample> along;
   std::vector<LostMotion> lost;       // empty: no singular pose met
   std::vector<std::string> findings;  // sentences, most serious first
-  bool feasible = true;               // the ideal motion exists from start to end
+  std::vector<double> passed;  // [s] singular poses of a motion that is not all driven, which goes on through them
+  bool feasible = true;        // the ideal motion exists from start to end
 };
 
 KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples = 201);
+
+class IdealMotion;
+
+// `along` and `passed` of a motion simulated without clearance, which the report of its mechanism leaves empty.
+void look_along(const Mechanism& mechanism, const IdealMotion& motion, KinematicReport& report, int samples = 201);
 
 }  // namespace boresight

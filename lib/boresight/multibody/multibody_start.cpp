@@ -1,11 +1,13 @@
 #include "boresight/multibody/multibody_start.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
 #include <memory>
 
+#include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/play/play_words.hpp"
 #include "boresight/scene/clearance_scene.hpp"
@@ -29,6 +31,9 @@ constexpr int kMostHalvings = 6;
 constexpr std::size_t kLastLoads = 3;
 // A step this many times the shortest leads away.
 constexpr double kAstray = 100.0;
+// Of the loads: with more along what has lost its contact, journals do not rest there. They are sent so many clearances that way, half as far
+// whenever it has turned round.
+constexpr double kLost = 1e-6, kSent = 0.5;
 
 std::vector<BodyMotion> displaced_bodies(const ClearanceScene::Start& scene, const VecX& z, const VecX& z_rate) {
   std::vector<BodyMotion> bodies = scene.ideal.bodies;
@@ -93,6 +98,21 @@ class ExactBalance {
         journals_(memory_.size()),
         rate_(formulation.state_size()) {}
 
+  // Of the linear balance: along what its contacts hold nothing journals are where they are left, and what pushes there is left to the motion.
+  void leave_as_in(const VecX& linear) {
+    constexpr double kHoldsNothing = 1e-9;
+    VecX F;
+    MatX by_z;
+    balance_.evaluate(linear, F, by_z);
+    const MatX held = -(balance_.unit().transpose() * by_z * balance_.unit());
+    const Eigen::SelfAdjointEigenSolver<MatX> contact(MatX(0.5 * (held + held.transpose())));
+    const double stiffest = contact.eigenvalues().cwiseAbs().maxCoeff();
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index k = 0; k < held.rows(); ++k)
+      if (!(std::abs(contact.eigenvalues()[k]) > kHoldsNothing * stiffest)) free.push_back(k);
+    valley_ = contact.eigenvectors()(Eigen::all, free);
+  }
+
   // What is left unbalanced with the journals sent to z, the bodies moving as they start: with coordinates that stand still, they would
   // move otherwise in another drawing.
   VecX left(const VecX& z) {
@@ -108,6 +128,20 @@ class ExactBalance {
     if (!scene_.layout.tips) return false;
     left(z);
     return balance_.falls(stiffness());
+  }
+  // What pushes journals along what holds nothing here and does where loads are balanced linearly: a contact has let go that carries its part. In
+  // clearances' directions; none: 0.
+  VecX lost(const MatX& by_z, const VecX& left) const {
+    const MatX H = -(balance_.unit().transpose() * by_z * balance_.unit());
+    const VecX load = balance_.unit().transpose() * left;
+    VecX push = load - H * solve_least(H, load, kSoftContact);
+    push -= valley_ * (valley_.transpose() * push);
+    return balance_.load() > 0.0 && push.norm() > kLost * balance_.load() ? push : VecX(VecX::Zero(push.size()));
+  }
+  // Whether journals rest at z as far as contacts go that the linear balance has.
+  bool lets_go(const VecX& z) {
+    const VecX F = left(z);
+    return lost(stiffness(), F).norm() > 0.0;
   }
   double length(const VecX& dz) const { return balance_.length(dz); }
   double size(const VecX& load) const { return balance_.size(load); }
@@ -128,19 +162,27 @@ class ExactBalance {
   std::vector<MassProperties> mass_;
   std::vector<ContactMemory> memory_;
   std::vector<PlayMotion<double>> journals_;
+  MatX valley_;
   VecX state_, rate_;
 };
 
 // Newton's method with the offsets' own stiffness: a few steps, where the pose is all but linear in the offsets. Returns the length of
 // the shortest step.
 double rest_nearly_linear(ExactBalance& exact, VecX& z) {
-  VecX at = z, left = exact.left(at);
+  VecX at = z, left = exact.left(at), sent;
+  double reach = kSent;
   // What no place of the journals balances is left to the motion: steps are judged by their length.
   double least = std::numeric_limits<double>::infinity(), lightest = least;
   int idle = 0;
   std::deque<double> last = {exact.size(left)};
   for (int step = 0; step < kMostSteps && idle < (least <= kSettledRest ? kMostIdleOfSettled : kMostIdle); ++step) {
-    VecX dz = exact.step(exact.stiffness(), left);
+    const MatX stiffness = exact.stiffness();
+    VecX dz = exact.step(stiffness, left);
+    if (const VecX lost = exact.lost(stiffness, left); lost.norm() > 0.0) {
+      if (sent.size() > 0 && sent.dot(lost) < 0.0) reach *= 0.5;
+      sent = lost;
+      dz += exact.unit() * lost * (reach / lost.norm());
+    }
     const double length = exact.length(dz), load = exact.size(left);
     if (length > 1.0) dz /= length;  // beyond their clearances at once the contacts are others
     // Where contacts are open no step helps, and that is no rest.
@@ -180,15 +222,12 @@ double rest_as_clearances_grow(const Mechanism& mechanism, const Parameters& par
       for (const auto gap : kGaps) c.*gap *= share;
     const RestingBalance balance(scene.layout, scene.numbers.row.data(), joint_plays(mechanism.description(), narrowed),
                                  scene.numbers.cancelled);
-    if (!from) {
-      const RestingStart linear = balance.solve();
-      if (!linear.refusal.empty()) return std::numeric_limits<double>::infinity();
-      z = linear.z;
-    } else {
-      z = *from;
-    }
+    const RestingStart linear = balance.solve();
+    if (!from && !linear.refusal.empty()) return std::numeric_limits<double>::infinity();
+    z = from ? *from : linear.z;
     const ElasticOnly elastic(formulation.forces(), balance.joints());
     ExactBalance exact(mechanism, parameters, scene, balance, formulation);
+    if (linear.refusal.empty()) exact.leave_as_in(linear.z);
     const double length = rest_nearly_linear(exact, z);
     if (length <= kAcceptableRest || !from) return length;
     // Close to a rest, with the stiffness that the bent pose has.
@@ -244,26 +283,43 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
   resting.linear = scene.T * rest.z;
   const ElasticOnly elastic(formulation->forces(), balance.joints());
   ExactBalance exact(mechanism, parameters, scene, balance, *formulation);
+  exact.leave_as_in(rest.z);
   VecX z = rest.z;
-  double length = rest_nearly_linear(exact, z);
-  if (exact.falls(z)) length = std::numeric_limits<double>::infinity();
-  if (!(length <= kSettledRest)) {
-    VecX other;
-    if (const double grown = rest_as_clearances_grow(mechanism, parameters, scene, *formulation, other);
-        grown < length && !exact.falls(other)) {
-      z = other;
-      length = grown;
+  double length = std::numeric_limits<double>::infinity();
+  bool lets_go = true;
+  // A place that holds all contacts is taken before one that does not, and then the nearer to a rest.
+  const auto take = [&](VecX at, double to_rest) {
+    if (!std::isfinite(to_rest) || exact.falls(at)) return;
+    bool open = exact.lets_go(at);
+    if (open) {
+      VecX closed = at;
+      if (const double after = rest_nearly_linear(exact, closed);
+          after <= kSettledRest && !exact.lets_go(closed) && !exact.falls(closed)) {
+        at = closed;
+        to_rest = after;
+        open = false;
+      }
     }
+    const bool rests = to_rest <= kAcceptableRest && !open, rested = length <= kAcceptableRest && !lets_go;
+    if (rests == rested ? !(to_rest < length) : rested) return;
+    z = at;
+    length = to_rest;
+    lets_go = open;
+  };
+  const auto settled = [&] { return length <= kSettledRest && !lets_go; };
+  VecX other = rest.z;
+  const double near = rest_nearly_linear(exact, other);
+  take(other, near);
+  if (!settled()) {
+    const double grown = rest_as_clearances_grow(mechanism, parameters, scene, *formulation, other);
+    take(other, grown);
   }
   // From where the linear balance is, or where that lies beyond what the pose bends by, from nearer to the middle of the sleeves.
   for (double share : {1.0, 0.5, 0.25, 0.0}) {
-    if (length <= kSettledRest) break;
-    VecX other = share * rest.z;
-    const double other_length = search_rest([&](const VecX& at) { return exact.left(at); }, exact.unit(), other);
-    if (other_length < length && !exact.falls(other)) {
-      z = other;
-      length = other_length;
-    }
+    if (settled()) break;
+    other = share * rest.z;
+    const double found = search_rest([&](const VecX& at) { return exact.left(at); }, exact.unit(), other);
+    take(other, found);
   }
   if (!(length <= kAcceptableRest) && scene.layout.tips) {
     // Where the linear balance leans to is nearer to a rest than the middle, which is none that lasts.
@@ -273,6 +329,10 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
                       "' contacts carry the loads of t = 0 on the mechanism's own geometry, which bends within the "
                       "clearances";
     return resting;
+  } else if (lets_go && resting.remark.empty()) {
+    resting.remark = "where the " + parts_in_play(mechanism.description()).inserts +
+                     " start, a contact that carries a part of the loads of t = 0 is open, as no position was found in "
+                     "which all hold: they move from there";
   }
   exact.place(z, y);
   resting.exact = formulation->bodies(0.0, y);

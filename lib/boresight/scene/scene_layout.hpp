@@ -91,10 +91,10 @@ struct SceneLayout {
       for (int j = 0; j < n; ++j) matrix(i, j) = row[inverse_mass(i, j)];
   }
 
-  int n = 0;                // coordinates
-  bool stiff = false;       // whether forces that grow with the coordinates themselves are kept
-  bool tips = false;        // whether these take journals farther from where no load pushes them: tipping.hpp
-  std::vector<int> tipped;  // clearances whose journals these are
+  int n = 0;                   // coordinates
+  bool stiff = false;          // whether forces that grow with the coordinates themselves are kept
+  bool tips = false;           // whether these take journals farther from where no load pushes them: tipping.hpp
+  std::vector<int> tipped;     // clearances whose journals these are
   std::vector<int> undecided;  // clearances whose journals nothing holds along part of their play as motions start
   int A = 0, Ar = 0, AC = 0, AK = 0, joints_at = 0, width = 0;
   std::vector<Joint> joints;

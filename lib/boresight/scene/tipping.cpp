@@ -28,7 +28,10 @@ std::string joints_of(const Mechanism& mechanism, const std::vector<int>& cleara
   std::string names;
   for (std::size_t k = 0; k < clearances.size(); ++k) {
     const int joint = description.clearances[static_cast<std::size_t>(clearances[k])].joint;
-    names += (k == 0 ? "" : k + 1 < clearances.size() ? ", " : " and ") + ("\"" + description.joints[joint].name + "\"");
+    names += (k == 0                      ? ""
+              : k + 1 < clearances.size() ? ", "
+                                          : " and ") +
+             ("\"" + description.joints[joint].name + "\"");
   }
   return names;
 }

@@ -180,7 +180,12 @@ class Envelope final : public SceneRung {
       const Eigen::Matrix<double, 6, kMostOffsets> gain = reactions.joint_gain(now, static_cast<int>(c));
       PlayOffsets offset = PlayOffsets::Zero();
       const Vec3 resting = gain.topRows<3>() * offsets_of(rest.motion);
+      std::vector<PlayOffsets> lines;
       for (const GapPart& part : joints[c].gap_parts(rest, now.load[c].slide)) {
+        if (part.shape == GapPart::Shape::cylinder && part.radial == 0.0) {
+          lines.push_back(part.axial * part.offset.col(1));
+          continue;
+        }
         const Gain moves = gain.topRows<3>() * part.offset, turns = gain.bottomRows<3>() * part.offset;
         const auto worst = [&](const Gain& G) { return (G * worst_offset(G, part)).norm(); };
         // The place that is worst for the position stands for the joint in the pictures: of the two opposite ones, the one
@@ -188,6 +193,19 @@ class Envelope final : public SceneRung {
         Vec3 place = worst_offset(moves, part);
         if (resting.dot(moves * place) < 0.0) place = -place;
         offset += part.offset * place;
+        bound.position += (moves * place).norm();
+        bound.orientation += worst(turns);
+        bound.boresight += worst(directions.across * turns);
+        bound.line_of_sight += worst(directions.sight.leftCols<3>() * moves + directions.sight.rightCols<3>() * turns);
+      }
+      if (!lines.empty()) {
+        const Eigen::Matrix<double, 3, kMostOffsets> moves = gain.topRows<3>(), turns = gain.bottomRows<3>();
+        PlayOffsets place = worst_corner(moves, lines);
+        if (resting.dot(moves * place) < 0.0) place = -place;
+        offset += place;
+        const auto worst = [&](const Eigen::Matrix<double, 3, kMostOffsets>& G) {
+          return (G * worst_corner(G, lines)).norm();
+        };
         bound.position += (moves * place).norm();
         bound.orientation += worst(turns);
         bound.boresight += worst(directions.across * turns);

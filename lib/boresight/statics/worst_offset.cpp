@@ -46,4 +46,19 @@ Vec3 worst_offset(const Gain& G, const GapPart& part) {
   return part.radial * stretch.eigenvectors().col(2);
 }
 
+PlayOffsets worst_corner(const Eigen::Matrix<double, 3, kMostOffsets>& G, const std::vector<PlayOffsets>& lines) {
+  PlayOffsets worst = PlayOffsets::Zero();
+  double largest = -1.0;
+  // A corner and its opposite displace alike: the first line keeps its sign.
+  for (unsigned signs = 0; signs < 1U << (lines.size() - 1); ++signs) {
+    PlayOffsets corner = lines.front();
+    for (std::size_t k = 1; k < lines.size(); ++k) corner += (signs >> (k - 1) & 1U ? -1.0 : 1.0) * lines[k];
+    if (const double size = (G * corner).squaredNorm(); size > largest) {
+      largest = size;
+      worst = corner;
+    }
+  }
+  return worst;
+}
+
 }  // namespace boresight

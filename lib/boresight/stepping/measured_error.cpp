@@ -51,9 +51,14 @@ constexpr double kStudent4 = 2.776;
 
 // What a run says of a motion.
 struct Followed {
-  explicit Followed(const RunResult& run) : index(run.index), peaks(run.peaks) {}
+  explicit Followed(const RunResult& run)
+      : index(run.index), peaks(run.peaks), acceleration(run.platform_acceleration_max) {
+    for (const ContactSummary& contact : run.contact) force.push_back(contact.max_force);
+  }
   PointingIndices index;
   PeaksOfParts peaks;
+  std::vector<double> force;
+  Vec3 acceleration;
 };
 
 // Further runs took more than kOverrun times what they may.
@@ -325,6 +330,17 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
     double& stated = (error.stated.*kQuantities[k]).max;
     stated = std::max(stated, highest - (result.index.*kQuantities[k]).max);
   }
+  // A step may go through the peak of an impact that it follows well otherwise.
+  const auto stated_of = [&](const auto& value_of) {
+    std::vector<double> x, y;
+    for (const Followed& run : own) x.push_back(value_of(run));
+    for (const Followed& run : finer) y.push_back(value_of(run));
+    return said_of(x, y).stated;
+  };
+  for (std::size_t c = 0; c < result.contact.size(); ++c)
+    error.contact_force.push_back(stated_of([c](const Followed& run) { return run.force[c]; }));
+  for (int k = 0; k < 3; ++k)
+    error.acceleration[k] = stated_of([k](const Followed& run) { return std::abs(run.acceleration[k]); });
   if (own.size() > 1)
     std::snprintf(text, sizeof text, "%s: %zu of them at neighbouring %s, %zu at %s",
                   settled ? "measured by further runs that agree" : "measured by further runs", own.size() - 1,

@@ -22,6 +22,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "boresight/rungs/rung.hpp"
 
@@ -29,12 +30,15 @@ namespace boresight {
 
 struct MeasuredError {
   bool measured = false;
-  std::string why_not;       // where not measured
-  PointingIndices stated;    // by how much each index may be off, in its own unit [m, rad]
-  PointingIndices spread;    // standard deviation of an index among neighbours [m, rad]
-  PointingIndices shift;     // |mean of the finer runs - mean of the neighbours| [m, rad]
-  int runs = 0;              // besides the one that was measured
-  bool by_instants = false;  // of a rung that takes no steps
+  std::string why_not;     // where not measured
+  PointingIndices stated;  // by how much each index may be off, in its own unit [m, rad]
+  PointingIndices spread;  // standard deviation of an index among neighbours [m, rad]
+  PointingIndices shift;   // |mean of the finer runs - mean of the neighbours| [m, rad]
+  // Likewise of what is printed beside the indices; 0 where not measured.
+  std::vector<double> contact_force;  // per clearance, of the largest force of one contact [N]
+  Vec3 acceleration = Vec3::Zero();   // of the boresight body's largest [m/s^2]
+  int runs = 0;                       // besides the one that was measured
+  bool by_instants = false;           // of a rung that takes no steps
   double cpu_seconds = 0.0;
   std::string basis;  // in words
 

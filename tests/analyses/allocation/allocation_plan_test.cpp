@@ -12,15 +12,14 @@ namespace allocation_plan_test {
 
 using testing::HasSubstr;
 
-std::string read(const std::string& tolerance) {
+// What follows the parameter's path.
+std::string read_entry(const std::string& entry) {
   static const MechanismDescription mechanism = read_mechanism(BORESIGHT_EXAMPLES "/3-rrcpr/3-rrcpr.toml");
   Document document = Document::from_text(R"([allocate]
 requirement = { limit = "0.5 mm", probability = 0.95, confidence = 0.9 }
 [[allocate.joint]]
 parameter = "clearance.F1.radial"
-tolerance = )" + tolerance + R"(
-cost = { law = "reciprocal-power", a = 1, b = 2, k = 1 }
-)",
+)" + entry,
                                           "study.toml");
   Cursor root(document);
   Study study;
@@ -31,6 +30,20 @@ cost = { law = "reciprocal-power", a = 1, b = 2, k = 1 }
   } catch (const InputError& fault) {
     return fault.what();
   }
+}
+
+std::string read(const std::string& tolerance) {
+  return read_entry("tolerance = " + tolerance + "\ncost = { law = \"reciprocal-power\", a = 1, b = 2, k = 1 }\n");
+}
+
+// Reports and files tell processes by their names.
+TEST(AllocationPlan, TakesTwoProcessesByTwoNames) {
+  const auto processes = [](const char* second) {
+    return read_entry("processes = [{ name = \"reamed\", tolerance = \"0.02 mm\", price = 4 }, { name = \"" +
+                      std::string(second) + "\", tolerance = \"0.006 mm\", price = 11 }]\n");
+  };
+  EXPECT_EQ(processes("honed"), "read");
+  EXPECT_THAT(processes("reamed"), HasSubstr("found \"reamed\" a second time, expected a name of its own"));
 }
 
 TEST(AllocationPlan, TakesATolerancesTightestAndWidestInThisOrderAndAboveNothing) {

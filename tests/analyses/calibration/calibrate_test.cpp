@@ -250,8 +250,7 @@ TEST(Calibrate, PrefersTheLawThatMadeTheData) {
   EXPECT_EQ(laws[1].difference, 0.0);
 }
 
-TEST(CalibrateLong, FourParametersFromTenRunsOfASecond) {
-  const Bench bench = four_bar::ten_runs();
+void expect_four_parameters(const Bench& bench) {
   CalibrationProblem problem = bench.problem({}, kFour);
   const CalibrationResult result = calibrate(problem, options_with(0));
   for (const ParameterEstimate& e : result.inference.parameters) {
@@ -264,15 +263,21 @@ TEST(CalibrateLong, FourParametersFromTenRunsOfASecond) {
   EXPECT_NEAR(result.inference.parameters[2].value / bench.truth(kFour[2]), 1.0, 0.10);
 }
 
-// 100 sets: BORESIGHT_CALIBRATION_SETS=100, some ten minutes of one core. BORESIGHT_CALIBRATION_SEED: of the
-// first. 14 sets: an interval that holds the truth in three cases of four where it says 95 % is found out with a chance of 72 % by each of the
-// four parameters, one that holds it in 60 % with 96 %, and one that does what it says passes with 99.6 %; 20 sets found out 77 % and 98 %.
-TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {
+// A second is what the windows have to grow to, through some fifty impacts; each run is one more of the same, and its errors are allowed what they
+// say of themselves, so that fewer runs hold the intervals as well.
+TEST(CalibrateLong, FourParametersFromThreeRunsOfASecond) {
+  expect_four_parameters(Bench({1.5, 2.1, 2.85}, 1.0, false));
+}
+TEST(CalibrateNight, FourParametersFromTenRunsOfASecond) { expect_four_parameters(four_bar::ten_runs()); }
+
+// BORESIGHT_CALIBRATION_SEED: of the first set; BORESIGHT_CALIBRATION_SETS: how many, a minute of one core each.
+void expect_truth_inside(int sets, int starts) {
   const auto number = [](const char* name, int otherwise) {
     const char* asked = std::getenv(name);
     return asked ? std::atoi(asked) : otherwise;
   };
-  const int sets = number("BORESIGHT_CALIBRATION_SETS", 8), first = number("BORESIGHT_CALIBRATION_SEED", 2000);
+  sets = number("BORESIGHT_CALIBRATION_SETS", sets);
+  const int first = number("BORESIGHT_CALIBRATION_SEED", 2000);
   const Bench bench({2.0, 2.4, 2.8}, 0.2, true);
   std::vector<std::vector<ParameterEstimate>> found(sets);
   for_each_on_threads(sets, 2, [&](int set) {
@@ -281,6 +286,7 @@ TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {
     CalibrationProblem problem = bench.problem(rig, kFour);
     CalibrationOptions options;
     options.profile = true;
+    options.starts = starts;
     found[set] = calibrate(problem, options).inference.parameters;
   });
   for (int p = 0; p < 4; ++p) {
@@ -306,6 +312,13 @@ TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {
     }
   }
 }
+
+// Of 8 sets one may miss: an interval that holds the truth in three cases of four where it says 95 % is found out with a chance of 63 % by each of
+// the four parameters, one that holds it in 60 % with 89 %, one that holds it in half with 96 %, and one that does what it says passes with 94 %.
+// By one start: that further ones find the valley of the truth is held above.
+TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) { expect_truth_inside(8, 1); }
+// Of 20 sets three may, by as many starts as a study has: 77 % and 98 %.
+TEST(CalibrateNight, TruthIsInsideTheIntervalOfTwentySetsAsOftenAsStated) { expect_truth_inside(20, 4); }
 
 }  // namespace calibrate_test
 }  // namespace boresight

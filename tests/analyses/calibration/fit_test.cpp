@@ -159,7 +159,7 @@ TEST(Verdict, NamesContactsThatBeganWhileBarelyMoving) {
               testing::ElementsAre(testing::StartsWith("All parameters are identifiable")));
   inference.grazing = 1;
   EXPECT_THAT(verdict(problem, inference),
-              testing::ElementsAre(testing::StartsWith("1 contacts began while barely moving")));
+              testing::ElementsAre(testing::StartsWith("1 contact began while barely moving")));
 }
 
 }  // namespace fit_test

@@ -118,9 +118,11 @@ void expect_coverage(int sets) {
   EXPECT_NEAR(combined.share(), 0.95, allowed);
 }
 
-TEST(KinematicCalibration, NamesWhatFiftyPosesOfTheDefaultMechanismDoNotTell) { expect_coverage(10); }
+// Even if the intervals of one set all held the truth or all missed it together, 30 sets found out intervals that hold it in three cases of four
+// where they say 95 % with a chance of 96 %, and in four of five with 88 %; 100 sets those of 85 % with 94 %. (They do not: chances are better.)
+TEST(KinematicCalibration, NamesWhatFiftyPosesDoNotTellAndIsRightOfTheRestAsOftenAsStated) { expect_coverage(30); }
 
-TEST(KinematicCalibrationLong, ThirtyErrorsAreInsideTheirIntervalsAsOftenAsStated) { expect_coverage(100); }
+TEST(KinematicCalibrationNight, ThirtyErrorsAreInsideTheirIntervalsAsOftenAsStated) { expect_coverage(100); }
 
 }  // namespace kinematic_calibration_test
 }  // namespace boresight

@@ -21,6 +21,7 @@ struct Bench {
   std::vector<int> channels;
   std::vector<double> times;
   MatX clean;
+  CalibrationRun run;  // without data: its scene and ideal motion are the same in every problem
 
   // poses: at equal times over the whole motion, the last one at its end.
   Bench(std::shared_ptr<const Mechanism> with_errors, std::vector<std::string> fitted, std::vector<int> measured,
@@ -28,6 +29,7 @@ struct Bench {
       : mechanism(std::move(with_errors)), paths(std::move(fitted)), channels(std::move(measured)) {
     for (int i = 1; i <= poses; ++i) times.push_back(mechanism->duration() * i / poses);
     clean = multibody_readings(mechanism, mechanism->parameters(), times, channels);
+    run = CalibrationRun("poses", mechanism, {});
   }
 
   // noise: standard deviation of each channel [SI]; follows: the correlation of neighbouring readings of one, as a first-order process has it.
@@ -50,7 +52,8 @@ struct Bench {
       }
     }
     CalibrationProblem p;
-    p.runs.emplace_back("poses", mechanism, data);
+    p.runs.push_back(run);
+    p.runs.back().data = std::move(data);
     for (const std::string& path : paths) p.parameters.push_back(fitted_parameter(mechanism->description(), path, 0.0));
     p.prepare(std::numeric_limits<double>::infinity(), true);
     return p;

@@ -11,7 +11,9 @@
 namespace boresight {
 namespace sensor_test {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class SensorTest : public testing::Test {
  protected:
@@ -145,6 +147,26 @@ TEST_F(SensorTest, SensorsOfUnlikeRatesAreOneTableWithGaps) {
   EXPECT_EQ(all.origin(4, 2).file, "fast.csv");
   EXPECT_EQ(all.origin(4, 2).line, 12);
   EXPECT_THROW(together({slow, slow}), InputError);
+}
+
+TEST_F(SensorTest, WhatIsNotFoundIsSaidWithWhatThereIs) {
+  ReadAs as;
+  as.time = "Time";
+  as.columns = {{0, "Q", "um", 1.0}};
+  EXPECT_THAT(fault([&] { read("Time [s],X [um],Z [um]\n0,1,2\n", as); }),
+              AllOf(HasSubstr("one of \"Time [s]\", \"X [um]\", \"Z [um]\""), Not(HasSubstr("did you mean"))));
+  // A table of this project's own.
+  EXPECT_THAT(fault([&] { read("t [s],BX [arcsec]\n0,1\n", {}); }), HasSubstr("did you mean bx?"));
+  EXPECT_THAT(fault([&] { read("t [s],bx [asec]\n0,1\n", {}); }), HasSubstr("did you mean arcsec?"));
+}
+
+TEST_F(SensorTest, TimeStampsWithoutAStartAskForOne) {
+  ReadAs as;
+  as.time = "Time";
+  as.columns = {{0, "X", "um", 1.0}};
+  EXPECT_THAT(fault([&] { read("Time,X\n2026-11-24T10:00:00Z,1\n", as); }), HasSubstr("of time stamps, start"));
+  as.time_unit = "s";
+  EXPECT_THAT(fault([&] { read("Time,X\n2026-11-24T10:00:00Z,1\n", as); }), HasSubstr("of time stamps, start"));
 }
 
 }  // namespace sensor_test

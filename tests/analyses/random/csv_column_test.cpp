@@ -64,5 +64,15 @@ TEST(CsvColumn, IsRefusedWhereARowHasMoreFieldsThanTheHeader) {
   EXPECT_EQ(read_csv_column(file_of("a,b\n1,0.5,\n2,1e-3, ,\n"), "b"), (std::vector<double>{0.5, 1e-3}));
 }
 
+// Its unit is for people: values are taken as the study says, so a name without it is none of the file's.
+TEST(CsvColumn, IsSuggestedWithItsUnit) {
+  try {
+    read_csv_column(file_of("a [s],b [Hz]\n1,0.5\n"), "b");
+    ADD_FAILURE() << "no refusal";
+  } catch (const ColumnFault& fault) {
+    EXPECT_EQ(fault.nearest, "b [Hz]");
+  }
+}
+
 }  // namespace csv_column_test
 }  // namespace boresight

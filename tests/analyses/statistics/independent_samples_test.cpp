@@ -87,13 +87,21 @@ IndependentSamples few(std::mt19937_64& engine, int n) {
   return IndependentSamples(std::move(values));
 }
 TEST(IndependentSamples, CoverTheMeanOfFewSkewedOnesToo) {
-  EXPECT_GE(coverage(std::exp(0.5), [](auto& e) { return few(e, 20).mean(0.95); }, 11), 0.91);
-  EXPECT_GE(coverage(std::exp(0.5), [](auto& e) { return few(e, 100).mean(0.95); }, 12), 0.93);
+  EXPECT_GE(coverage(
+                std::exp(0.5), [](auto& e) { return few(e, 20).mean(0.95); }, 11),
+            0.91);
+  EXPECT_GE(coverage(
+                std::exp(0.5), [](auto& e) { return few(e, 100).mean(0.95); }, 12),
+            0.93);
 }
 TEST(IndependentSamples, CoverTheSdOfFewSkewedOnesMoreThan83TimesInAHundred) {
   const double sd = std::sqrt(std::exp(1.0) * std::expm1(1.0));
-  EXPECT_GE(coverage(sd, [](auto& e) { return few(e, 40).sd(0.95); }, 13), 0.83);
-  EXPECT_GE(coverage(sd, [](auto& e) { return few(e, 200).sd(0.95); }, 14), 0.87);
+  EXPECT_GE(coverage(
+                sd, [](auto& e) { return few(e, 40).sd(0.95); }, 13),
+            0.83);
+  EXPECT_GE(coverage(
+                sd, [](auto& e) { return few(e, 200).sd(0.95); }, 14),
+            0.87);
 }
 TEST(IndependentSamples, ThatAreAllAlikeSayWhatTheyDoNotShow) {
   const IndependentSamples s(std::vector<double>(60, 2.0));

@@ -167,5 +167,37 @@ TEST_F(ErrorsProgram, SettingADimensionSaysThatTheDrawingChangesAndSettingAnErro
   EXPECT_THAT(call({"check", "roomy.toml", "--set", "body.mirror.mass=2kg", "--out", "d"}).out, Not(HasSubstr(says)));
 }
 
+// A share of what the drive does, though it is computed in radians.
+TEST_F(ErrorsProgram, AScaleIsSaidInPartsPerMillion) {
+  const std::string joint = "[[joint]]\nname = \"right\"";
+  std::string scaled = shaft("", "0 mm");
+  scaled.insert(scaled.find(joint),
+                "[[error]]\nname = \"left.scale\"\ndrive = \"left\"\nlaw = \"q\"\nvalue = \"50 ppm\"\n");
+  std::ofstream(folder_ / "scaled.toml") << scaled;
+  EXPECT_THAT(call({"check", "scaled.toml", "--out", "check"}).out, HasSubstr("error.left.scale of 50 ppm: boresight"));
+  EXPECT_THAT(call({"run", "scaled.toml", "--out", "run"}).out, HasSubstr("error.left.scale of 50 ppm: "));
+  const nlohmann::json paths = nlohmann::json::parse(call({"paths", "scaled.toml", "--json"}).out);
+  for (const nlohmann::json& number : paths["numbers"])
+    if (number["path"] == "error.left.scale") {
+      EXPECT_EQ(number["unit"], "1");
+      EXPECT_EQ(number["written"], "50 ppm");
+    }
+}
+
+// A fifth of a milliarcsecond is no rounding where instruments are built for it.
+TEST_F(ErrorsProgram, ANanoradianIsDrawnAndSaid) {
+  ASSERT_EQ(call({"run", "strained.toml", "--set", "error.seat=0mm", "--out", "none"}).status, 0);
+  EXPECT_THAT(text("none/report.html"), HasSubstr("Boresight error: zero to rounding, not drawn."));
+  const std::string joint = "[[joint]]\nname = \"right\"";
+  std::string fine = shaft("", "0 mm");
+  fine.insert(fine.find(joint),
+              "[[error]]\nname = \"left.zero\"\ndrive = \"left\"\nlaw = \"1\"\nvalue = \"1e-9 rad\"\n");
+  std::ofstream(folder_ / "fine.toml") << fine;
+  const Ended ended = call({"run", "fine.toml", "--out", "fine"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("1 nrad"));
+  EXPECT_THAT(text("fine/report.html"), Not(HasSubstr("Boresight error: zero to rounding")));
+}
+
 }  // namespace errors_program_test
 }  // namespace boresight::app

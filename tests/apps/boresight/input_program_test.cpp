@@ -188,8 +188,8 @@ TEST_F(InputProgram, CheckFindsAJournalThatWouldBePressedThroughItsSleeve) {
 }
 
 TEST_F(InputProgram, ARunOfAJournalThatIsPressedThroughItsSleeveIsRefused) {
-  const Ended ended = call({"run", four_bar_, "--set", "gravity.z=-1e7 m/s^2", "--set", "clearance.D.contact.young=1 MPa",
-                            "--rung", "quasistatic", "--out", "out"});
+  const Ended ended = call({"run", four_bar_, "--set", "gravity.z=-1e7 m/s^2", "--set",
+                            "clearance.D.contact.young=1 MPa", "--rung", "quasistatic", "--out", "out"});
   EXPECT_EQ(ended.status, 3) << ended.err;
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
   EXPECT_THAT(ended.err, HasSubstr("no contact law holds there"));
@@ -197,8 +197,8 @@ TEST_F(InputProgram, ARunOfAJournalThatIsPressedThroughItsSleeveIsRefused) {
 
 TEST_F(InputProgram, AccuracyIsHeldAgainstWhatARungAskedForByNameStatesOfItself) {
   const auto run = [&](const char* accuracy) {
-    return call({"run", four_bar_, "--set", "motion.duration=0.1 s", "--rung", "quasistatic", "--accuracy", accuracy, "--out",
-                 std::string("out-") + accuracy});
+    return call({"run", four_bar_, "--set", "motion.duration=0.1 s", "--rung", "quasistatic", "--accuracy", accuracy,
+                 "--out", std::string("out-") + accuracy});
   };
   const Ended loose = run("100 %"), tight = run("0.0001 %");
   EXPECT_EQ(loose.status, 0) << loose.err;

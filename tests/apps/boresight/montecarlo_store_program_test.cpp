@@ -86,7 +86,7 @@ TEST_F(MonteCarloProgram, SamplesOfAnotherVersionAreRefusedInALineAndLeftAsTheyA
 
 TEST_F(MonteCarloProgram, InterruptedWhileItsStepsAreMeasuredItHasItsSamplesAndTheirTable) {
   study("few.toml", 8);
-  const std::vector<std::string> arguments = {"montecarlo", "few.toml",     "--set", "motion.duration=60s",
+  const std::vector<std::string> arguments = {"montecarlo", "few.toml",     "--set", "motion.duration=15s",
                                               "--rung",     "perturbation", "--out", "out",
                                               "--resume",   "--jobs",       "1"};
   const pid_t child = start(arguments);

@@ -25,8 +25,15 @@ TEST(Readable, UsesTheUnitsPeopleRead) {
 
 TEST(Readable, ZeroAndRoundingAreSaidPlainly) {
   EXPECT_EQ(readable(0.0, "m"), "0 mm");
-  EXPECT_EQ(readable(2.9e-12, "rad"), "below 0.1 nrad");
-  EXPECT_EQ(readable_arcsec(2.9e-12), "below 0.0001 arcsec");
+  EXPECT_EQ(readable(2.9e-13, "rad"), "below 1 prad");
+  EXPECT_EQ(readable_arcsec(2.9e-13), "below 0.000001 arcsec");
+}
+
+TEST(Readable, AMilliarcsecondAndLessIsANumber) {
+  EXPECT_EQ(readable(4.85e-9, "rad"), "4.85 nrad");
+  EXPECT_EQ(readable(3.366e-11, "rad"), "33.7 prad");
+  EXPECT_EQ(readable(-5e-12, "m"), "-5 pm");
+  EXPECT_EQ(readable_arcsec(3.366e-11), "6.94e-06 arcsec");
 }
 
 TEST(Readable, StaysInTheUnitThatTheUserWrote) {
@@ -41,12 +48,34 @@ TEST(Readable, StaysInTheUnitThatTheUserWrote) {
   EXPECT_DOUBLE_EQ(display_unit_as("rad", 1e-4, "arcsec").per_si * arcsec, 1.0);
 }
 
+TEST(Readable, AScaleIsAShare) {
+  EXPECT_EQ(readable_of_error(2.5e-4, "1"), "250 ppm");
+  EXPECT_EQ(readable_of_error(-3e-5, "1"), "-30 ppm");
+  EXPECT_EQ(readable_of_error(2e-3, "1"), "0.2 %");
+  EXPECT_EQ(readable_of_error(2.5e-4, "rad"), "0.25 mrad");
+}
+
 TEST(Readable, ArcsecondsAndShares) {
   EXPECT_EQ(readable_arcsec(2.396e-3), "494 arcsec");
   EXPECT_EQ(readable_share(0.9786), "97.9 %");
   EXPECT_EQ(readable_error(0.9786), "97.9 %");
   EXPECT_EQ(readable_error(35.2), "35 times the value itself");
   EXPECT_EQ(readable_error(1e9), "over 10000 times the value itself");
+}
+
+TEST(Readable, AShareNearAllHasDigitsOfWhatItLacksAndIsRoundedDown) {
+  EXPECT_EQ(readable_near_all(0.962351), "96.2 %");
+  EXPECT_EQ(readable_near_all(0.9997319), "99.973 %");
+  EXPECT_EQ(readable_near_all(0.9973), "99.73 %");
+  EXPECT_EQ(readable_near_all(0.5), "50 %");
+  EXPECT_EQ(readable_near_all(1.0), "100 %");
+}
+
+TEST(Readable, OneIsNoPlural) {
+  EXPECT_EQ(how_many(1, "impact"), "1 impact");
+  EXPECT_EQ(how_many(0, "impact"), "0 impacts");
+  EXPECT_EQ(how_many(1, "body", "bodies"), "1 body");
+  EXPECT_EQ(how_many(2, "body", "bodies"), "2 bodies");
 }
 
 }  // namespace readable_test

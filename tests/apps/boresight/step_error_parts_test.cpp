@@ -138,6 +138,18 @@ TEST(ModelErrorSaid, IsNothingWhereNothingIsLeftOutOrNothingDeviates) {
   EXPECT_THAT(model_error_said(exact, kMaximum, 1.0).sentence, IsEmpty());
 }
 
+TEST(ForceError, IsSaidWhereStepsGoThroughThePeakOfAnImpact) {
+  RunResult result;
+  result.contact.resize(2);
+  result.contact[0].max_force = 100.0;
+  result.contact[1].max_force = 200.0;
+  MeasuredError measured = off_by(0.0, 0.0);
+  measured.contact_force = {29.0, 0.2};
+  EXPECT_EQ(force_error_text(measured, result, 0), "± 29 %");
+  EXPECT_THAT(force_error_text(measured, result, 1), IsEmpty());
+  EXPECT_THAT(force_error_text({}, result, 0), IsEmpty());
+}
+
 TEST(IndexTable, HasEachFiguresOwnError) {
   const PointingIndices index = indices(1e-4, 1e-3);
   const RunResult result = left_out(0.02, index);

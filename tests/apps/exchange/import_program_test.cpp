@@ -83,11 +83,18 @@ TEST_F(ImportProgram, WhatIsWrongWithAnOptionIsOneLine) {
   }
 }
 
+TEST_F(ImportProgram, AnAxisThatIsNoneIsNamed) {
+  write("gimbal.urdf", kGimbal);
+  const Ended import = call({"import", "gimbal.urdf", "--to", "out.toml", "--boresight", "camera:q"});
+  EXPECT_EQ(import.status, 2);
+  EXPECT_THAT(import.err, HasSubstr("\"q\" as the axis of camera, expected x, y, z"));
+}
+
 TEST_F(ImportProgram, ALinkHeldAtTheEndLeavesALoop) {
   write("gimbal.urdf", kGimbal);
   const Ended import = call({"import", "gimbal.urdf", "--ground", "camera", "--drive", "none"});
   ASSERT_EQ(import.status, 0) << import.err;
-  EXPECT_THAT(import.out, HasSubstr("1 bodies of 0.8 kg together, 2 joints, 0 of them driven"));
+  EXPECT_THAT(import.out, HasSubstr("1 body of 0.8 kg together, 2 joints, 0 of them driven"));
 }
 
 TEST_F(ImportProgram, RefusesWhatIsNoMechanism) {

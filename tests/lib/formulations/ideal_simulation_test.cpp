@@ -13,6 +13,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/stepping/own_step.hpp"
 #include "boresight/stepping/unstable_step.hpp"
+#include "tree_formulation_scenes.hpp"
 
 namespace boresight {
 namespace ideal_simulation_test {
@@ -125,6 +126,21 @@ TEST(IdealSimulation, SaysWhatAMotionIsWrongByThatNoFinerRunConfirms) {
     steps = found->knots() - 2;
   }
   FAIL() << "however few steps there are, the motion comes to its end";
+}
+
+// A swinging loop loses nothing and gains nothing: what grows are steps longer than a swing.
+TEST(IdealSimulation, CallsTooLongWhatOnlyItsStepsMakeGrow) {
+  for (const double duration : {1e5, 1e6, 1e8}) {
+    MechanismDescription d = scenes::planar_four_bar();
+    d.motion.duration = duration;
+    const auto mechanism = scenes::build(std::move(d));
+    try {
+      simulated_motion(*mechanism, mechanism->parameters(), {.explicit_steps = 1 << 13, .implicit_steps = 200});
+      FAIL() << "was followed for " << duration;
+    } catch (const ComputationError& refusal) {
+      EXPECT_NE(std::string(refusal.what()).find("too long to follow"), std::string::npos) << refusal.what();
+    }
+  }
 }
 
 // A double pendulum whose motion soon hangs on the last digit, beside a damper that asks for an implicit method.

@@ -132,5 +132,36 @@ TEST(StartingState, OfAClosedLoopIsAsNearToHomeAsItsJointsAllow) {
   EXPECT_LT((start.bodies[1].w - exact.w).norm(), 1e-8);
 }
 
+// A body that no joint holds shows in no joint's coordinate.
+TEST(StartingState, OfALoopTakesRatesBesideABodyThatNothingHolds) {
+  for (const double rate : {2.0, 1e-6}) {
+    MechanismDescription m = scenes::planar_four_bar();
+    m.motion.duration = 0.1;
+    m.initial_rates.push_back({0, InitialRateDescription::Freedom::angle, rate, {}});
+    const std::vector<BodyMotion> alone = start_of(*scenes::build(m)).bodies;
+    scenes::add_body(m, "lost", 1.0, Vec3(1.0, 0.3, 0.0), Vec3::Zero());
+    const std::vector<BodyMotion> beside = start_of(*scenes::build(m)).bodies;
+    for (std::size_t b = 0; b < alone.size(); ++b) {
+      EXPECT_LT((beside[b].w - alone[b].w).norm(), 1e-10 * rate);
+      EXPECT_LT((beside[b].v - alone[b].v).norm(), 1e-10 * rate);
+    }
+    EXPECT_LT(beside.back().v.norm() + beside.back().w.norm(), 1e-10 * rate);
+  }
+}
+
+// One axis of a planar loop a degree aslant locks it.
+TEST(StartingState, SaysThatJointsLockWhatARateIsGivenOf) {
+  MechanismDescription m = scenes::planar_four_bar();
+  m.motion.duration = 0.1;
+  m.joints[2].axis = Vec3(0.02, 1.0, 0.0).normalized();
+  m.initial_rates.push_back({0, InitialRateDescription::Freedom::angle, 2.0, {}});
+  try {
+    start_of(*scenes::build(m));
+    FAIL() << "moves";
+  } catch (const InputError& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("nothing free to move"), std::string::npos) << refusal.what();
+  }
+}
+
 }  // namespace starting_state_test
 }  // namespace boresight

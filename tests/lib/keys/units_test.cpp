@@ -148,6 +148,39 @@ TEST(Units, NameTheNearestUnit) {
   }
 }
 
+TEST(Units, ThatCountFromAZeroOfTheirOwnAreSaidToDoSo) {
+  try {
+    parse_quantity("8 degC", kTemperature);
+    ADD_FAILURE() << "no fault";
+  } catch (const ValueFault& fault) {
+    EXPECT_EQ(fault.found, "\"8 degC\", whose unit counts from a zero of its own");
+    EXPECT_EQ(fault.expected, "a difference of temperatures such as \"5 K\"");
+    EXPECT_EQ(fault.nearest, "");
+  }
+}
+
+TEST(Units, AreSuggestedWhereTheyMeasureWhatIsAsked) {
+  const auto nearest = [](const char* unit, const SiUnit& expected) {
+    try {
+      scale_of_unit(unit, expected);
+    } catch (const ValueFault& fault) {
+      return fault.nearest;
+    }
+    return std::string("no fault");
+  };
+  EXPECT_EQ(nearest("asec", kAngle), "arcsec") << "an attosecond";
+  EXPECT_EQ(nearest("min", kLength), "");
+  EXPECT_EQ(nearest("kg", kLength), "");
+  EXPECT_EQ(nearest("degg", kTemperature), "");
+}
+
+// The example of a value has a number; where there is none, the unit is said to be one.
+TEST(Units, OfAParameterAreSaidWithAValue) {
+  EXPECT_EQ(expectation(unit_called("rad")), "an angle such as \"30 deg\"");
+  EXPECT_EQ(expectation(unit_called("K")), "a difference of temperatures such as \"5 K\"");
+  EXPECT_EQ(expectation(unit_called("N m s/rad")), "a value in N m s/rad");
+}
+
 TEST(Units, AreSafeFromManyThreads) {
   std::vector<std::thread> threads;
   std::vector<double> sums(4, 0.0);

@@ -323,34 +323,34 @@ TEST(Lanes, LeaveBearingPairsWithStandingErrorsToTheRung) {
   EXPECT_FALSE(PerturbationLanes::serve(*scenes::build(std::move(d))));
 }
 
-// The index at the default tolerance against its converged value: RK4 at 2 us, medians over three neighbouring steps.
+// The index at the default tolerance against its converged value: RK4 at 4 us, less than half of what follows the contacts, medians over three
+// neighbouring steps. The corners and the middle of the published table: what is off with clearance or load is most so there.
 TEST(LanesLong, MeetOnePercentOverClearancesAndLoads) {
-  for (const double c : {1e-4, 2e-4, 3e-4})
-    for (const double payload : {0.0, 250.0, 500.0}) {
-      const auto mechanism = scene("1 s");
-      Parameters sample = mechanism->parameters();
-      sample.clearance[0].radial = sample.clearance[0].axial = c;
-      sample.payload_mass = payload;
-      const auto rung = make_rung("perturbation", mechanism);
-      std::vector<double> max, rms;
-      for (const double step : {2e-6, 2.2e-6, 2.5e-6}) {
-        RunOptions options;
-        options.step = step;
-        options.sample_spacing = 0.0;
-        const Statistics s = rung->run(sample, options).index.position_error;
-        max.push_back(s.max);
-        rms.push_back(s.rms);
-      }
-      std::sort(max.begin(), max.end());
-      std::sort(rms.begin(), rms.end());
-      LaneOutcome out;
-      PerturbationLanes(mechanism, PointingQuantity::position_error).run({&sample, 1}, {&out, 1});
-      std::printf("c %.1f mm, %3.0f kg: maximum %.4f mm (%+.2f %%), RMS %.4f mm (%+.2f %%), %ld steps, %ld rejected\n",
-                  1e3 * c, payload, 1e3 * out.max, 100.0 * (out.max / max[1] - 1.0), 1e3 * std::sqrt(out.mean_square),
-                  100.0 * (std::sqrt(out.mean_square) / rms[1] - 1.0), out.steps, out.rejected);
-      EXPECT_NEAR(out.max, max[1], 0.01 * max[1]);
-      EXPECT_NEAR(std::sqrt(out.mean_square), rms[1], 0.005 * rms[1]);
+  for (const auto& [c, payload] : {std::pair{1e-4, 0.0}, {1e-4, 500.0}, {2e-4, 250.0}, {3e-4, 0.0}, {3e-4, 500.0}}) {
+    const auto mechanism = scene("1 s");
+    Parameters sample = mechanism->parameters();
+    sample.clearance[0].radial = sample.clearance[0].axial = c;
+    sample.payload_mass = payload;
+    const auto rung = make_rung("perturbation", mechanism);
+    std::vector<double> max, rms;
+    for (const double step : {4e-6, 4.4e-6, 5e-6}) {
+      RunOptions options;
+      options.step = step;
+      options.sample_spacing = 0.0;
+      const Statistics s = rung->run(sample, options).index.position_error;
+      max.push_back(s.max);
+      rms.push_back(s.rms);
     }
+    std::sort(max.begin(), max.end());
+    std::sort(rms.begin(), rms.end());
+    LaneOutcome out;
+    PerturbationLanes(mechanism, PointingQuantity::position_error).run({&sample, 1}, {&out, 1});
+    std::printf("c %.1f mm, %3.0f kg: maximum %.4f mm (%+.2f %%), RMS %.4f mm (%+.2f %%), %ld steps, %ld rejected\n",
+                1e3 * c, payload, 1e3 * out.max, 100.0 * (out.max / max[1] - 1.0), 1e3 * std::sqrt(out.mean_square),
+                100.0 * (std::sqrt(out.mean_square) / rms[1] - 1.0), out.steps, out.rejected);
+    EXPECT_NEAR(out.max, max[1], 0.01 * max[1]);
+    EXPECT_NEAR(std::sqrt(out.mean_square), rms[1], 0.005 * rms[1]);
+  }
 }
 
 }  // namespace lanes_test

@@ -64,5 +64,19 @@ TEST(KinematicReport, NamesBearingsThatDoNotQuiteShareAnAxis) {
   EXPECT_NE(off.findings[0].find("1e-05 m"), std::string::npos) << off.findings[0];
 }
 
+TEST(KinematicReport, SaysThatNothingCanMove) {
+  const auto locked = [](double aslant) {
+    MechanismDescription m = scenes::four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, true, "t");
+    m.joints[2].axis = Vec3(aslant, 1.0, 0.0).normalized();
+    m.joints[0].driven = false;
+    m.motion.drives.clear();
+    const std::vector<std::string> found = analyse_kinematics(Mechanism(std::move(m)), 11).findings;
+    return std::any_of(found.begin(), found.end(),
+                       [](const std::string& s) { return s.find("nothing can move") != std::string::npos; });
+  };
+  EXPECT_TRUE(locked(0.02));
+  EXPECT_FALSE(locked(0.0));
+}
+
 }  // namespace kinematic_report_test
 }  // namespace boresight

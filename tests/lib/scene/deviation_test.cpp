@@ -67,7 +67,7 @@ TEST(Perturbation, FollowsMultibodyWithClearanceInAnyOneJoint) {
   }
 }
 
-// Impacts scatter the maximum: the scatter over five perturbed steps of each rung is part of the test's record.
+// Impacts scatter the maximum: the scatter over three perturbed steps of each rung is part of the test's record.
 TEST(PerturbationLong, FollowsMultibodyWithClearanceInAllTwelveJoints) {
   const auto mechanism = with_clearance_on(takes_clearance, "1 s");
   ASSERT_EQ(mechanism->clearances(), 12);
@@ -75,7 +75,7 @@ TEST(PerturbationLong, FollowsMultibodyWithClearanceInAllTwelveJoints) {
   for (int k : {0, 1}) {
     const auto rung = make_rung(k == 0 ? "perturbation" : "multibody", mechanism);
     std::vector<double> maxima, means;
-    for (double share : {1.0, 0.99, 0.98, 0.97, 0.96}) {
+    for (double share : {1.0, 0.98, 0.96}) {
       RunOptions options;
       options.step = share * 2e-5;
       options.sample_spacing = 0.0;
@@ -85,11 +85,11 @@ TEST(PerturbationLong, FollowsMultibodyWithClearanceInAllTwelveJoints) {
     }
     std::sort(maxima.begin(), maxima.end());
     std::sort(means.begin(), means.end());
-    std::printf("%s: maximum %.4f mm (%.4f to %.4f over five steps), RMS %.4f mm (%.4f to %.4f)\n",
-                rung->name().c_str(), 1e3 * maxima[2], 1e3 * maxima[0], 1e3 * maxima[4], 1e3 * means[2], 1e3 * means[0],
-                1e3 * means[4]);
-    max[k] = maxima[2];
-    rms[k] = means[2];
+    std::printf("%s: maximum %.4f mm (%.4f to %.4f over three steps), RMS %.4f mm (%.4f to %.4f)\n",
+                rung->name().c_str(), 1e3 * maxima[1], 1e3 * maxima[0], 1e3 * maxima[2], 1e3 * means[1], 1e3 * means[0],
+                1e3 * means[2]);
+    max[k] = maxima[1];
+    rms[k] = means[1];
   }
   EXPECT_NEAR(max[0] / max[1], 1.0, 0.06);
   EXPECT_NEAR(rms[0] / rms[1], 1.0, 0.03);

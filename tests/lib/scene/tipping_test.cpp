@@ -307,11 +307,14 @@ TEST(Tipping, SaysWhichJournalsNothingHoldsSomewhereInTheirPlay) {
   const MechanismPtr hanging = scene(replaced(kColumn, "-9.81 m/s^2", "9.81 m/s^2"));
   EXPECT_EQ(undecided(*hanging), std::vector<int>{0});
   for (const char* rung : {"quasistatic", "perturbation", "multibody"})
-    EXPECT_TRUE(says(make_rung(rung, hanging)->run(hanging->parameters(), {}).warnings, "nothing pushes", "\"sl\"")) << rung;
-  EXPECT_FALSE(says(make_rung("envelope", hanging)->run(hanging->parameters(), {}).warnings, "nothing pushes", "\"sl\""));
+    EXPECT_TRUE(says(make_rung(rung, hanging)->run(hanging->parameters(), {}).warnings, "nothing pushes", "\"sl\""))
+        << rung;
+  EXPECT_FALSE(
+      says(make_rung("envelope", hanging)->run(hanging->parameters(), {}).warnings, "nothing pushes", "\"sl\""));
   const MechanismPtr centred = scene("journals = \"centred\"\n" + replaced(kColumn, "-9.81 m/s^2", "9.81 m/s^2"));
   for (const char* rung : {"quasistatic", "perturbation", "multibody"})
-    EXPECT_FALSE(says(make_rung(rung, centred)->run(centred->parameters(), {}).warnings, "nothing pushes", "\"sl\"")) << rung;
+    EXPECT_FALSE(says(make_rung(rung, centred)->run(centred->parameters(), {}).warnings, "nothing pushes", "\"sl\""))
+        << rung;
 }
 
 TEST(Tipping, NothingIsUndecidedWhereLoadsPushEveryJournal) {

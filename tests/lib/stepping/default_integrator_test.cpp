@@ -91,14 +91,14 @@ TEST(DefaultIntegrator, IsRosenbrockWhereFrictionHasAStateAndRk4DoesNotFollow) {
   }
 }
 
-// However soon damping sets in: a tighter tolerance gives the same.
+// However soon damping sets in: a tolerance of a tenth gives the same.
 TEST(DefaultIntegrator, IsFollowedByTighterTolerancesWhereFrictionHasAState) {
   const auto mechanism = resting("1e-9 m/s", {{"clearance.F1.friction.law", "lugre"}});
   const RunResult r = run("perturbation", mechanism);
   EXPECT_EQ(r.integrator_taken, "rosenbrock");
   RunOptions tight;
   tight.integrator = "rosenbrock";
-  tight.tolerance = 1e-5;
+  tight.tolerance = 1e-4;
   const double converged =
       make_rung("perturbation", mechanism)->run(mechanism->parameters(), tight).index.position_error.max;
   EXPECT_NEAR(r.index.position_error.max, converged, 1e-2 * converged);

@@ -49,7 +49,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(PeerProves);
 #ifdef BORESIGHT_SIMBODY
 // The heaviest row of the table, one run; .ci/deep references makes all of it. Rounding, another from machine to machine, decides single
 // impacts: a maximum of the five recorded was 1.2 % off on a second run, a root mean square 0.1 %.
-TEST(SimbodyLong, GivesTheFiguresThatMultibodyIsHeldAgainst) {
+TEST(SimbodyNight, GivesTheFiguresThatMultibodyIsHeldAgainst) {
   const reference::Row row = reference::table("simbody_figures", "default mechanism").back();
   Parameters parameters = scene().mechanism().parameters();
   parameters.clearance[0].radial = parameters.clearance[0].axial = row[0];

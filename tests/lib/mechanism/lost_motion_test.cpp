@@ -1,0 +1,103 @@
+// Loops that a drive carries through a pose where they could go on in another way.
+#include "boresight/mechanism/lost_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/io/expression.hpp"
+#include "boresight/mechanism/kinematic_report.hpp"
+#include "scenes.hpp"
+
+namespace boresight {
+namespace lost_motion_test {
+
+const std::vector<Vec3> kParallelogram = {{0, 0, 0}, {0, 0, 1}, {2, 0, 1}, {2, 0, 0}};
+
+// Largest turn and displacement of the coupler of a parallelogram, its crank turned by `angle`, off where it stays parallel.
+double off_parallel(const IdealMotion& motion, double (*angle)(double)) {
+  double worst = 0.0;
+  for (int k = 0; k <= 1000; ++k) {
+    const double t = motion.duration() * k / 1000;
+    const BodyMotion coupler = motion.body(t, 1);
+    const Vec3 parallel(1.0 + std::sin(angle(t)), 0.0, std::cos(angle(t)));
+    worst = std::max({worst, (coupler.R - Mat3::Identity()).norm(), (coupler.p - parallel).norm(), coupler.w.norm()});
+  }
+  return worst;
+}
+
+class ChangePoint : public testing::TestWithParam<bool> {};
+
+TEST_P(ChangePoint, IsPassedOnTheBranchThatGoesOnSmoothly) {
+  // At a state of the motion's table, between its states, at its end; passed once and twice.
+  struct Case {
+    const char* law;
+    double (*angle)(double);
+    std::vector<double> lost;
+  };
+  const double pi = std::numbers::pi;
+  for (const Case& c : {Case{"2*pi*t", [](double t) { return 2.0 * std::numbers::pi * t; }, {0.25}},
+                        Case{"5*t", [](double t) { return 5.0 * t; }, {pi / 10.0}},
+                        Case{"pi*t", [](double t) { return std::numbers::pi * t; }, {0.5}},
+                        Case{"7*pi*t",
+                             [](double t) { return 7.0 * std::numbers::pi * t; },
+                             {1.0 / 14.0, 3.0 / 14.0, 5.0 / 14.0, 0.5}}}) {
+    const auto mechanism = scenes::build(scenes::four_bar(kParallelogram, GetParam(), c.law));
+    const IdealMotion motion = ideal_motion(*mechanism, mechanism->parameters());
+    EXPECT_LT(off_parallel(motion, c.angle), 1e-8) << c.law;
+    EXPECT_LT(motion.error(), IdealMotion::kAccuracy) << c.law;
+    ASSERT_EQ(motion.lost().size(), c.lost.size()) << c.law;
+    for (std::size_t k = 0; k < c.lost.size(); ++k) EXPECT_NEAR(motion.lost()[k].t, c.lost[k], 1e-6) << c.law;
+    EXPECT_NE(doubt_of(motion).find("singular pose at t = "), std::string::npos) << doubt_of(motion);
+    EXPECT_EQ(analyse_kinematics(*mechanism).lost.size(), c.lost.size()) << c.law;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAParallelogram, ChangePoint, testing::Bool(), [](const auto& p) {
+  return p.param ? std::string("WithRedundantRows") : std::string("WithIndependentRows");
+});
+
+TEST(LostMotions, AreNoneOfALoopThatComesNearOneOnly) {
+  // A bar longer by a thousandth of itself: crank and coupler never lie in one line with the ground.
+  const auto mechanism =
+      scenes::build(scenes::four_bar({{0, 0, 0}, {0, 0, 1}, {2.001, 0, 1.002}, {2, 0, 0}}, true, "2*pi*t"));
+  const IdealMotion motion = ideal_motion(*mechanism, mechanism->parameters());
+  EXPECT_TRUE(motion.lost().empty());
+  EXPECT_EQ(doubt_of(motion), "");
+  const auto paper = scenes::build(scenes::rrcpr());
+  EXPECT_TRUE(ideal_motion(*paper, paper->parameters()).lost().empty());
+}
+
+TEST(AFreeMotion, IsLookedAtForSingularPosesToo) {
+  MechanismDescription m = scenes::four_bar(kParallelogram, true, "t");
+  m.joints[0].driven = false;
+  m.motion.drives.clear();
+  m.motion.duration = 0.3;
+  m.initial_rates.push_back({0, InitialRateDescription::Freedom::angle, 8.0, {}});
+  const auto mechanism = scenes::build(m);
+  const IdealMotion motion = ideal_motion(*mechanism, mechanism->parameters());
+  KinematicReport report = analyse_kinematics(*mechanism);
+  EXPECT_TRUE(report.along.empty());
+  look_along(*mechanism, motion, report);
+  EXPECT_EQ(report.along.size(), 201u);
+  ASSERT_EQ(report.passed.size(), 1u);
+  EXPECT_NEAR(motion.body(report.passed[0], 0).p.z(), 0.0, 1e-6);  // the crank lies in the line of the ground's pivots
+  m.motion.duration = 0.1;
+  const auto before = scenes::build(m);
+  KinematicReport sound = analyse_kinematics(*before);
+  look_along(*before, ideal_motion(*before, before->parameters()), sound);
+  EXPECT_TRUE(sound.passed.empty());
+  EXPECT_GT(sound.along.back().smallest_singular_value, 1e-3);
+}
+
+TEST(ALawWithAKink, IsFollowedThroughItFarFromASingularPose) {
+  const auto mechanism = scenes::build(scenes::four_bar(kParallelogram, true, "0.5-abs(t-0.26)"));
+  const IdealMotion motion = ideal_motion(*mechanism, mechanism->parameters());
+  EXPECT_TRUE(motion.lost().empty());
+  EXPECT_LT((motion.body(0.4, 1).R - Mat3::Identity()).norm(), 1e-9);
+}
+
+}  // namespace lost_motion_test
+}  // namespace boresight
