@@ -53,7 +53,7 @@ TEST(Calibrate, SaysThatPlayCountsAsNoiseWhereErrorsAloneAreFitted) {
   problem.prepare(10.0, true);
   EXPECT_EQ(problem.freedoms(0), 0);
   const CalibrationResult result = calibrate(problem, {});
-  ASSERT_EQ(result.warnings.size(), 1u);
+  ASSERT_GE(result.warnings.size(), 1u);
   EXPECT_NE(result.warnings.front().find("the play of D is not followed"), std::string::npos)
       << result.warnings.front();
   // Play of 0.2 mm stands in the readings: far more than the rig's noise is left, and the interval says so.

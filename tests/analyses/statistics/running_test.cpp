@@ -1,6 +1,7 @@
 #include "boresight_analyses/statistics/running.hpp"
 
 #include <gmock/gmock.h>
+#include <gsl/gsl_cdf.h>
 
 #include "boresight_analyses/statistics/independent_samples.hpp"
 #include "repetition.hpp"
@@ -27,7 +28,10 @@ TEST(RunningMoments, MeetTheSamplesTheySaw) {
   for (const RunningMoments& m : {running, first}) {
     EXPECT_NEAR(m.mean(), all.mean(0.95).value, 1e-12 * m.mean());
     EXPECT_NEAR(m.sd(), all.sd(0.95).value, 1e-12 * m.sd());
-    EXPECT_NEAR(m.mean_interval(0.9).high, all.mean(0.9).high, 1e-12 * m.mean());
+    // Student's alone: what is drawn while samples come knows no skewness.
+    const double half = gsl_cdf_tdist_Pinv(0.95, 4999.0) * m.sd() / std::sqrt(5000.0);
+    EXPECT_NEAR(m.mean_interval(0.9).high, m.mean() + half, 1e-12 * m.mean());
+    EXPECT_NEAR(m.mean_interval(0.9).high, all.mean(0.9).high, 1e-3 * m.mean());
   }
 }
 

@@ -311,7 +311,8 @@ TEST(Tipping, SaysWhichJournalsNothingHoldsSomewhereInTheirPlay) {
         << rung;
   EXPECT_FALSE(
       says(make_rung("envelope", hanging)->run(hanging->parameters(), {}).warnings, "nothing pushes", "\"sl\""));
-  const MechanismPtr centred = scene(replaced(kColumn, "-9.81 m/s^2", "9.81 m/s^2") + "[initial]\njournals = \"centred\"\n");
+  const MechanismPtr centred =
+      scene(replaced(kColumn, "-9.81 m/s^2", "9.81 m/s^2") + "[initial]\njournals = \"centred\"\n");
   for (const char* rung : {"quasistatic", "perturbation", "multibody"})
     EXPECT_FALSE(says(make_rung(rung, centred)->run(centred->parameters(), {}).warnings, "nothing pushes", "\"sl\""))
         << rung;
