@@ -127,7 +127,7 @@ class ImportVerb : public Verb {
     double mass = 0.0;
     for (const BodyDescription& body : m.bodies) mass += body.mass;
     tell("{}: {} of {:.4g} kg together, {}, {} of them driven\n", to, how_many(m.bodies.size(), "body", "bodies"), mass,
-         m.joints.size(), assembly.drives.size());
+         how_many(m.joints.size(), "joint"), assembly.drives.size());
     const auto list = [](const char* title, const std::vector<Remark>& remarks) {
       if (remarks.empty()) return;
       tell("{}\n", title);
