@@ -49,9 +49,9 @@ INSTANTIATE_TEST_SUITE_P(Integrators, WithIntegrator, testing::Values("dopri5", 
 
 // 100,000 t on a journal of 10 mm: no rung has an answer, and a study of them fails sample by sample, on lanes and off.
 TEST(SampleModel, FailsWhereAContactIsDeeperThanItsJournalIsThick) {
-  const auto mechanism = std::make_shared<const Mechanism>(
-      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml",
-                     {{"motion.duration", "20 ms"}, {"initial.journals", "rest"}}));
+  const auto mechanism =
+      std::make_shared<const Mechanism>(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml",
+                                                       {{"motion.duration", "20 ms"}, {"initial.journals", "rest"}}));
   const auto parameters_of = [&](std::span<const double> values) {
     Parameters p = mechanism->parameters();
     p.payload_mass = values[0];
