@@ -16,9 +16,11 @@ std::vector<Vec3> combined(const std::vector<std::vector<Vec3>>& columns, const 
 
 GroupParts::GroupParts(const BudgetPlan& plan, const BudgetRuns& runs, const BudgetEnsemble& ensemble,
                        std::span<const std::uint64_t> members)
-    : plan_(plan), runs_(runs), ensemble_(ensemble), members_(members) {}
+    : plan_(plan), runs_(runs), ensemble_(ensemble), members_(members) {
+  for (std::size_t group = 0; group < runs.groups(); ++group) columns_.push_back(columns_of(group));
+}
 
-GroupParts::Columns GroupParts::columns(std::size_t group) const {
+GroupParts::Columns GroupParts::columns_of(std::size_t group) const {
   Columns out;
   if (!plan_.is_of_errors(group)) return out;
   for (const int i : plan_.groups.members[group]) {
@@ -37,7 +39,7 @@ std::vector<double> GroupParts::drawn(std::size_t group, std::uint64_t member) c
 }
 
 std::vector<Vec3> GroupParts::part(std::size_t group, std::uint64_t member) const {
-  return combined(columns(group), drawn(group, member));
+  return combined(columns_[group], drawn(group, member));
 }
 
 bool GroupParts::hold(std::size_t group, const Columns& of_index, ErrorIndex index, const Windows& windows) const {
@@ -59,7 +61,7 @@ bool GroupParts::hold(std::size_t group, const Columns& of_index, ErrorIndex ind
 }
 
 bool GroupParts::by_columns(std::size_t group, ErrorIndex index, const Windows& windows) const {
-  Columns own = columns(group);
+  Columns own = columns_[group];
   for (std::vector<Vec3>& column : own) column = index_values(index, {plan_.sampling, column}, windows);
   return !own.empty() && hold(group, own, index, windows);
 }
@@ -67,7 +69,7 @@ bool GroupParts::by_columns(std::size_t group, ErrorIndex index, const Windows& 
 GroupSums GroupParts::sums(std::size_t group, ErrorIndex index, const Windows& windows) const {
   GroupSums s;
   s.adds_up = plan_.is_of_errors(group);
-  Columns own = columns(group);
+  Columns own = columns_[group];
   for (std::vector<Vec3>& column : own) column = index_values(index, {plan_.sampling, column}, windows);
   if (!own.empty() && hold(group, own, index, windows)) {
     s.of_all = true;

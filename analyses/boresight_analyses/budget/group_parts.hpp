@@ -31,7 +31,7 @@ class GroupParts {
 
  private:
   using Columns = std::vector<std::vector<Vec3>>;  // of the group's parameters
-  Columns columns(std::size_t group) const;
+  Columns columns_of(std::size_t group) const;
   std::vector<double> drawn(std::size_t group, std::uint64_t member) const;
   bool hold(std::size_t group, const Columns& of_index, ErrorIndex index, const Windows& windows) const;
 
@@ -39,6 +39,7 @@ class GroupParts {
   const BudgetRuns& runs_;
   const BudgetEnsemble& ensemble_;
   std::span<const std::uint64_t> members_;
+  std::vector<Columns> columns_;  // of each group, over time; empty where they do not tell its part
 };
 
 }  // namespace boresight

@@ -32,6 +32,11 @@ report::Chart waterfall_chart(const BudgetStudy& study, const Budget& budget);
 report::Chart distribution_chart(const BudgetStudy& study, const Budget& budget);
 report::Panels history_panels(const BudgetStudy& study, const Budget& budget);
 
+void write_levels(std::ostream& out, const BudgetStudy& study, const Budget& budget);
+void write_classical(std::ostream& out, const BudgetStudy& study, const Budget& budget);
+void write_contributions(std::ostream& out, const Budget& budget);
+Json budget_json(const BudgetStudy& study, const Budget& budget);
+
 // Of sub-budgets.
 report::Section tree_section(const BudgetStudy& study, const Budget& budget);
 Json tree_json(const Budget& budget);

@@ -12,9 +12,9 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/play_mobility.hpp"
-#include "boresight/play/joint_play.hpp"
-#include "boresight/rungs/pressed_through.hpp"
+#include "boresight/play/play_words.hpp"
 #include "boresight_analyses/study/overrun_play.hpp"
+#include "check/contact_findings.hpp"
 #include "check/unlikely_masses.hpp"
 #include "report_parts/report_parts.hpp"
 #include "results/summary.hpp"
@@ -173,39 +173,6 @@ void add_start_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckR
                          parts.seats + ": " + text);
 }
 
-// What no joint can bear, or nothing can be computed of: numbers without bounds, journals pressed through their sleeves.
-void add_contact_findings(const Mechanism& mechanism, CheckResult& result) {
-  for (std::size_t c = 0; c < result.contacts.size(); ++c) {
-    const ContactFrequency& contact = result.contacts[c];
-    const ClearanceDescription& d = mechanism.description().clearances[c];
-    const ClearanceParameters& p = mechanism.parameters().clearance[c];
-    const std::pair<const char*, double> numbers[] = {
-        {"contact stiffness", contact.hertz_stiffness}, {"end-face stiffness", contact.axial_stiffness},
-        {"moved mass", contact.effective_mass},         {"reaction", contact.largest_load},
-        {"rest depth", contact.typical_penetration},    {"contact frequency", contact.angular_frequency}};
-    std::string unknown;
-    for (const auto& [what, value] : numbers)
-      if (!std::isfinite(value)) unknown += (unknown.empty() ? "" : ", ") + std::string(what);
-    if (!unknown.empty()) {
-      result.findings.push_back(fmt::format(
-          "{}: its {} cannot be computed: masses, speeds, stiffness or gravity are out of all proportion to each other",
-          contact.joint, unknown));
-      continue;
-    }
-    // A contact as deep as the journal is thick, or the pad is wide, is no contact: the journal would be through its sleeve.
-    const JointPlay play(d, mechanism.description().joints[d.joint].type, p);
-    const double depth = play.normal_law().depth_under(contact.largest_load);
-    const double radius = insert_thickness(p);
-    const PlayWords parts = play.words();
-    if (!(depth < radius))
-      result.findings.push_back(fmt::format(
-          "{}: its largest load, {}, would press the {} {} into its {}, which is more than the {}'s {} of {}; "
-          "check young, masses and gravity, and the speed of the motion",
-          contact.joint, readable(contact.largest_load, "N"), parts.insert, readable(depth, "m"), parts.seat,
-          parts.insert, p.length > 0.0 ? "half width" : "radius", readable(radius, "m")));
-  }
-}
-
 // A motion that the cheapest rung with dynamics would follow for long: how long, as it goes on this machine.
 void add_cost_note(const std::shared_ptr<const Mechanism>& mechanism, CheckResult& result) {
   constexpr double kManySteps = 1e8, kTrialSeconds = 0.3;
@@ -332,7 +299,8 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
       for (const std::string& sentence : overrun_plays(mechanism, mechanism.parameters(), ideal))
         result.findings.push_back(sentence);
       result.contacts = analyse_contacts(mechanism, mechanism.parameters(), ideal);
-      add_contact_findings(mechanism, result);
+      for (std::string& finding : contact_findings(mechanism, result.contacts))
+        result.findings.push_back(std::move(finding));
       if (result.findings.empty()) {
         add_law_notes(mechanism, result);
         add_start_note(mechanism, ideal, result);

@@ -1,6 +1,5 @@
 #include "boresight/multibody/multibody_start.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -99,19 +98,7 @@ class ExactBalance {
         rate_(formulation.state_size()) {}
 
   // Of the linear balance: along what its contacts hold nothing journals are where they are left, and what pushes there is left to the motion.
-  void leave_as_in(const VecX& linear) {
-    constexpr double kHoldsNothing = 1e-9;
-    VecX F;
-    MatX by_z;
-    balance_.evaluate(linear, F, by_z);
-    const MatX held = -(balance_.unit().transpose() * by_z * balance_.unit());
-    const Eigen::SelfAdjointEigenSolver<MatX> contact(MatX(0.5 * (held + held.transpose())));
-    const double stiffest = contact.eigenvalues().cwiseAbs().maxCoeff();
-    std::vector<Eigen::Index> free;
-    for (Eigen::Index k = 0; k < held.rows(); ++k)
-      if (!(std::abs(contact.eigenvalues()[k]) > kHoldsNothing * stiffest)) free.push_back(k);
-    valley_ = contact.eigenvectors()(Eigen::all, free);
-  }
+  void leave_as_in(const VecX& linear) { valley_ = ways_not_held(balance_, linear); }
 
   // What is left unbalanced with the journals sent to z, the bodies moving as they start: with coordinates that stand still, they would
   // move otherwise in another drawing.
@@ -135,7 +122,7 @@ class ExactBalance {
     const MatX H = -(balance_.unit().transpose() * by_z * balance_.unit());
     const VecX load = balance_.unit().transpose() * left;
     VecX push = load - H * solve_least(H, load, kSoftContact);
-    push -= valley_ * (valley_.transpose() * push);
+    if (valley_.size() > 0) push -= valley_ * (valley_.transpose() * push);
     return balance_.load() > 0.0 && push.norm() > kLost * balance_.load() ? push : VecX(VecX::Zero(push.size()));
   }
   // Whether journals rest at z as far as contacts go that the linear balance has.

@@ -194,7 +194,10 @@ std::shared_ptr<const PreparedScene> SceneRung::prepared_for(const Parameters& p
     lock.lock();
     if (prepared_ != kept && serves(*mechanism_, *prepared_, prepared_parameters_, parameters)) return prepared_;
   }
-  prepared_ = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
+  // What drives alone decide is the same for all parameters.
+  const bool kept = prepared_ && is_kinematic(*mechanism_);
+  prepared_ = std::make_shared<const PreparedScene>(
+      *mechanism_, kept ? prepared_->ideal() : ideal_motion(*mechanism_, parameters), parameters);
   prepared_parameters_ = parameters;
   return prepared_;
 }

@@ -38,24 +38,30 @@ std::string joints_of(const Mechanism& mechanism, const std::vector<int>& cleara
 
 }  // namespace
 
-Tipping tipped_by_loads(const RestingBalance& balance, const SceneLayout& layout, const MatX& K, const VecX& acting) {
-  // Of the contacts' stiffness: below, they hold nothing. Of the loads' own: below, it is what differences leave of none. And of what acts, over
-  // a clearance: geometric stiffness is a clearance over a length of it, 1e-5 and more, and rounding of differences 1e-12.
-  constexpr double kHoldsNothing = 1e-9, kNone = 1e-4, kOfActing = 1e-8;
-  const RestingStart rest = balance.solve();
-  if (!rest.refusal.empty()) return {};  // another matter, which its user is told
-  const MatX& unit = balance.unit();
+MatX ways_not_held(const RestingBalance& balance, const VecX& z) {
+  constexpr double kHoldsNothing = 1e-9;  // of the stiffest
   VecX F;
   MatX by_z;
-  balance.evaluate(rest.z, F, by_z);
-  const MatX held = -(unit.transpose() * by_z * unit);
+  balance.evaluate(z, F, by_z);
+  const MatX held = -(balance.unit().transpose() * by_z * balance.unit());
   const Eigen::SelfAdjointEigenSolver<MatX> contact(MatX(0.5 * (held + held.transpose())));
   const double stiffest = contact.eigenvalues().cwiseAbs().maxCoeff();
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < held.rows(); ++k)
     if (!(std::abs(contact.eigenvalues()[k]) > kHoldsNothing * stiffest)) free.push_back(k);
-  if (free.empty()) return {};
-  const MatX N = unit * contact.eigenvectors()(Eigen::all, free), of_loads = unit.transpose() * K * unit;
+  return contact.eigenvectors()(Eigen::all, free);
+}
+
+Tipping tipped_by_loads(const RestingBalance& balance, const SceneLayout& layout, const MatX& K, const VecX& acting) {
+  // Of the loads' own stiffness: below, it is what differences leave of none. And of what acts, over a clearance: geometric stiffness is a
+  // clearance over a length of it, 1e-5 and more, and rounding of differences 1e-12.
+  constexpr double kNone = 1e-4, kOfActing = 1e-8;
+  const RestingStart rest = balance.solve();
+  if (!rest.refusal.empty()) return {};  // another matter, which its user is told
+  const MatX& unit = balance.unit();
+  const MatX free = ways_not_held(balance, rest.z);
+  if (free.cols() == 0) return {};
+  const MatX N = unit * free, of_loads = unit.transpose() * K * unit;
   const MatX along = N.transpose() * K * N;
   const Eigen::SelfAdjointEigenSolver<MatX> valley(MatX(0.5 * (along + along.transpose())));
   const double none = std::max(kNone * of_loads.norm(), kOfActing * (unit.transpose() * acting).norm());

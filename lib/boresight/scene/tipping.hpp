@@ -18,6 +18,9 @@
 
 namespace boresight {
 
+// Along which the contacts of a balance at z hold nothing: orthonormal columns, in clearances (RestingBalance::unit()).
+MatX ways_not_held(const RestingBalance& balance, const VecX& z);
+
 struct Tipping {
   std::vector<int> clearances;  // whose journals tip over; none where all stay
   VecX way;                     // of the coordinates, a clearance long: along which the energy falls most

@@ -9,12 +9,8 @@
 namespace boresight {
 namespace next_test_test {
 
+using poses::gimbal;
 using poses::kArcsec;
-
-std::shared_ptr<const Mechanism> gimbal() {
-  return std::make_shared<const Mechanism>(
-      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/altaz-gimbal/altaz-gimbal.toml"));
-}
 
 TEST(NextTest, OfTheSameStarsHalvesTheVariances) {
   const poses::Bench bench(gimbal(), {"error.IA", "error.IE", "error.NPAE"}, {6, 7, 8}, 500);

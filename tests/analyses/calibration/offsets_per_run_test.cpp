@@ -8,12 +8,8 @@
 namespace boresight {
 namespace offsets_per_run_test {
 
+using poses::gimbal;
 using poses::kArcsec;
-
-std::shared_ptr<const Mechanism> gimbal() {
-  return std::make_shared<const Mechanism>(
-      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/altaz-gimbal/altaz-gimbal.toml"));
-}
 
 const std::vector<std::string> kErrors = {"error.IA", "error.IE", "error.NPAE"};
 

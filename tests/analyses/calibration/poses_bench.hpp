@@ -15,6 +15,11 @@ constexpr double kArcsec = M_PI / 648000.0;
 // Of channel_names().
 constexpr int kDisplacements[] = {0, 1, 2}, kRotations[] = {3, 4, 5}, kAxis[] = {6, 7, 8};
 
+inline std::shared_ptr<const Mechanism> gimbal() {
+  return std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/altaz-gimbal/altaz-gimbal.toml"));
+}
+
 struct Bench {
   std::shared_ptr<const Mechanism> mechanism;
   std::vector<std::string> paths;
