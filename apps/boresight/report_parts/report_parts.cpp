@@ -59,6 +59,16 @@ double largest_over(const std::vector<Overlay>& overlays, const Value& value) {
 
 constexpr const char* kAxisName[] = {"x", "y", "z"};
 
+// No column is so narrow that a number is broken from its sign or its unit.
+std::string in_one_line(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == ' ' ? std::string("\u00a0") : std::string(1, c);
+  return out;
+}
+
+constexpr const char* kStated =
+    " ±: what steps do and what the rung leaves out, of each figure by itself, where that was measured.";
+
 }  // namespace
 
 double rounding_of(const Mechanism& mechanism, const std::string& si_unit) {
@@ -204,9 +214,6 @@ std::string definitions(const std::vector<Overlay>& overlays) {
   return text;
 }
 
-constexpr const char* kStated =
-    " ±: what steps do and what the rung leaves out, of each figure by itself, where that was measured.";
-
 report::Table index_table(const std::vector<Overlay>& overlays) {
   report::Table table{.title = "Indices",
                       .caption = "Statistics over time, from every accepted step. Angles also in arcseconds." +
@@ -229,7 +236,7 @@ report::Table index_table(const std::vector<Overlay>& overlays) {
       const auto text = [&](double value, const char* statistic) {
         const std::string uncertainty =
             overlay.stated && *statistic != '\0' ? overlay.stated({quantity.name, statistic}) : "";
-        return readable(value, quantity.si_unit) + (uncertainty.empty() ? "" : " " + uncertainty);
+        return readable(value, quantity.si_unit) + (uncertainty.empty() ? "" : " " + in_one_line(uncertainty));
       };
       std::vector<nlohmann::json> row = {overlay.name,       quantity.title,       text(s.max, "max"), s.time_of_max,
                                          text(s.rms, "rms"), text(s.mean, "mean"), text(s.p9973, ""),  nullptr};

@@ -56,7 +56,7 @@ TEST(Calibrate, SaysThatPlayCountsAsNoiseWhereErrorsAloneAreFitted) {
   ASSERT_GE(result.warnings.size(), 1u);
   // Nothing else but the channels that the play moves and the fit does not explain.
   for (std::size_t k = 1; k < result.warnings.size(); ++k)
-    EXPECT_NE(result.warnings[k].find("of these readings"), std::string::npos) << result.warnings[k];
+    EXPECT_NE(result.warnings[k].find("these readings"), std::string::npos) << result.warnings[k];
   EXPECT_NE(result.warnings.front().find("the play of D is not followed"), std::string::npos)
       << result.warnings.front();
   // Play of 0.2 mm stands in the readings: far more than the rig's noise is left, and the interval says so.
