@@ -259,13 +259,17 @@ void look_along(const Mechanism& mechanism, const IdealMotion& motion, Kinematic
   const auto values_at = [&](double t) {
     motion.state(t, state);
     system.evaluate(state.bodies, laws);
-    return singular_values(scaled_rows(system.dense_jacobian(), mechanism.characteristic_length()));
+    return singular_values_of_loops(mechanism, system);
   };
   // What is free anywhere else is not lost: the last value that is not zero there tells.
-  motion.state(generic_instant(0.0, motion.duration()), state);
-  system.evaluate(state.bodies, laws);
-  const int rank = constraint_rank(mechanism, system);
+  const VecX elsewhere = values_at(generic_instant(0.0, motion.duration()));
+  const auto rank = (elsewhere.array() > kRankTolerance * (elsewhere.size() > 0 ? elsewhere[0] : 0.0)).count();
   if (rank == 0) return;
+  // Singular values take a time that grows by the cube of their number.
+  constexpr double kFlops = 1e9;
+  constexpr int kFewest = 21;
+  samples = std::clamp(static_cast<int>(kFlops / std::pow(static_cast<double>(elsewhere.size()), 3)),
+                       std::min(kFewest, samples), samples);
   const auto lock = [&](double t) {
     const VecX values = values_at(t);
     return values[rank - 1] / values[0];

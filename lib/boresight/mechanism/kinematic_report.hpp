@@ -34,7 +34,8 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples = 201
 
 class IdealMotion;
 
-// `along` and `passed` of a motion simulated without clearance, which the report of its mechanism leaves empty.
+// `along` and `passed` of a motion simulated without clearance, which the report of its mechanism leaves empty. Empty again where no joint closes
+// a loop; at fewer samples where loops are of so many bodies that all would take minutes.
 void look_along(const Mechanism& mechanism, const IdealMotion& motion, KinematicReport& report, int samples = 201);
 
 }  // namespace boresight

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "boresight/math/singular_values.hpp"
+#include "boresight/mechanism/spanning_tree.hpp"
 
 namespace boresight {
 namespace {
@@ -44,11 +45,14 @@ std::vector<int> coupled_groups(const MatX& J) {
   return first;
 }
 
-// The blocks of J that belong to its groups, without rows and columns of zeros only.
-std::vector<MatX> blocks_by_group(const MatX& J) {
+// The blocks of J that belong to its groups, or to those of them that hold one of these bodies, without rows and columns of zeros only.
+std::vector<MatX> blocks_by_group(const MatX& J, const std::vector<int>* with_one_of = nullptr) {
   const std::vector<int> first = coupled_groups(J);
   std::vector<MatX> blocks;
   for (int g = 0; g < static_cast<int>(first.size()); ++g) {
+    if (with_one_of &&
+        std::none_of(with_one_of->begin(), with_one_of->end(), [&](int body) { return first[body] == g; }))
+      continue;
     std::vector<Eigen::Index> rows, columns;
     for (int b = g; b < static_cast<int>(first.size()); ++b)
       for (int i = 0; first[b] == g && i < 6; ++i) columns.push_back(6 * b + i);
@@ -60,16 +64,20 @@ std::vector<MatX> blocks_by_group(const MatX& J) {
   return blocks;
 }
 
-// The singular values of J, falling: those of its groups' blocks together, each for the cube of its own size alone.
-VecX singular_values_by_group(const MatX& J) {
+VecX singular_values_of(const std::vector<MatX>& blocks, Eigen::Index least = 0) {
   std::vector<double> all;
-  for (const MatX& block : blocks_by_group(J)) {
+  for (const MatX& block : blocks) {
     const VecX sigma = singular_values(block);
     all.insert(all.end(), sigma.begin(), sigma.end());
   }
-  all.resize(std::min(J.rows(), J.cols()), 0.0);
+  all.resize(std::max(least, static_cast<Eigen::Index>(all.size())), 0.0);
   std::sort(all.begin(), all.end(), std::greater<>());
   return Eigen::Map<const VecX>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+// The singular values of J, falling: those of its groups' blocks together, each for the cube of its own size alone.
+VecX singular_values_by_group(const MatX& J) {
+  return singular_values_of(blocks_by_group(J), std::min(J.rows(), J.cols()));
 }
 
 int rank_of(const VecX& sigma) {
@@ -118,6 +126,17 @@ RankAnalysis analyse_rank(const Mechanism& mechanism, const ConstraintSystem& ev
     for (int b = 0; b < evaluated.bodies(); ++b) result.least_resisted.segment<3>(6 * b) *= length;
   }
   return result;
+}
+
+VecX singular_values_of_loops(const Mechanism& mechanism, const ConstraintSystem& evaluated) {
+  const SpanningTree tree(mechanism, false);
+  std::vector<int> closing;
+  for (const int joint : tree.cut_joints())
+    for (const JointDescription& d = mechanism.description().joints[joint]; const int body : {d.first, d.second})
+      if (body != kGround) closing.push_back(body);
+  if (closing.empty()) return {};
+  const MatX J = scaled_rows(evaluated.dense_jacobian(), mechanism.characteristic_length());
+  return singular_values_of(blocks_by_group(J, &closing));
 }
 
 int constraint_rank(const Mechanism& mechanism, const ConstraintSystem& evaluated) {

@@ -31,6 +31,10 @@ RankAnalysis analyse_rank(const Mechanism& mechanism, const ConstraintSystem& ev
 // The rank alone, the same number: for a small part of the time, wherever bounds decide it.
 int constraint_rank(const Mechanism& mechanism, const ConstraintSystem& evaluated);
 
+// The singular values, falling, of the rows of those groups of coupled bodies whose joints close loops: the rows of the others, of trees,
+// hold the same motions everywhere. None where no joint closes a loop.
+VecX singular_values_of_loops(const Mechanism& mechanism, const ConstraintSystem& evaluated);
+
 // "turns about (0, 0, 1)", "moves along (1, 0, 0)" or both: one body's part of a stacked motion, world axes.
 std::string describe_motion(const Mechanism& mechanism, const VecX& motion, int body);
 

@@ -7,8 +7,10 @@
 #include <numbers>
 
 #include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/formulations/starting_state.hpp"
 #include "boresight/io/expression.hpp"
 #include "boresight/mechanism/kinematic_report.hpp"
+#include "boresight/mechanism/rank_analysis.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
@@ -90,6 +92,43 @@ TEST(AFreeMotion, IsLookedAtForSingularPosesToo) {
   look_along(*before, ideal_motion(*before, before->parameters()), sound);
   EXPECT_TRUE(sound.passed.empty());
   EXPECT_GT(sound.along.back().smallest_singular_value, 1e-3);
+}
+
+TEST(AFreeMotion, IsLookedAtWhereJointsCloseLoopsAlone) {
+  MechanismDescription m = scenes::four_bar(kParallelogram, true, "t");
+  m.joints[0].driven = false;
+  m.motion.drives.clear();
+  const auto size_of_loops = [](const MechanismDescription& description) {
+    const auto mechanism = scenes::build(description);
+    ConstraintSystem system(*mechanism, {.clearance = ClearanceRows::closed});
+    system.evaluate(home_state(*mechanism).bodies, std::vector<TimeValue>(mechanism->joints()));
+    return singular_values_of_loops(*mechanism, system).size();
+  };
+  const auto loop = size_of_loops(m);
+  EXPECT_GT(loop, 0);
+  const auto hang_a_chain = [](MechanismDescription& description) {
+    for (int k = 0, above = kGround; k < 3; ++k) {
+      BodyDescription body;
+      body.name = "chain" + std::to_string(k);
+      body.mass = 1.0;
+      body.inertia = Mat3::Identity();
+      if (description.bodies.empty()) body.boresight = Vec3::UnitZ();
+      JointDescription joint;
+      joint.name = "hinge" + std::to_string(k);
+      joint.first = above;
+      joint.second = above = static_cast<int>(description.bodies.size());
+      joint.axis = Vec3::UnitY();
+      joint.point = Vec3(0.0, 0.0, -k);
+      description.bodies.push_back(body);
+      description.joints.push_back(joint);
+    }
+  };
+  hang_a_chain(m);
+  EXPECT_EQ(size_of_loops(m), loop);
+  m.bodies.clear();
+  m.joints.clear();
+  hang_a_chain(m);
+  EXPECT_EQ(size_of_loops(m), 0);
 }
 
 TEST(ALawWithAKink, IsFollowedThroughItFarFromASingularPose) {
