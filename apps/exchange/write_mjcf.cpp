@@ -23,9 +23,12 @@ std::string quaternion(const Mat3& R) {
 class MjcfWriter {
  public:
   explicit MjcfWriter(const Mechanism& mechanism)
-      : mechanism_(mechanism),
-        m_(mechanism.description()),
-        masses_(mechanism.mass_properties(mechanism.parameters())) {}
+      : mechanism_(mechanism), m_(mechanism.description()), masses_(mechanism.mass_properties(mechanism.parameters())) {
+    // Names of one kind differ. Those of the file come first, so that what is added makes way for them.
+    for (const BodyDescription& body : m_.bodies) body_names_.push_back(own_name(taken_by_bodies_, body.name));
+    for (const JointDescription& joint : m_.joints) taken_by_joints_.insert(joint.name);
+    for (const JointDescription& joint : m_.joints) ends_.push_back(own_name(taken_by_bodies_, joint.name + " end"));
+  }
 
   Written write() {
     choose_tree();
@@ -61,6 +64,12 @@ class MjcfWriter {
  private:
   void open(const char* tag) { printer_.OpenElement(tag); }
   void attribute(const char* name, const std::string& text) { printer_.PushAttribute(name, text.c_str()); }
+
+  static std::string own_name(std::set<std::string>& taken, const std::string& wanted) {
+    std::string name = wanted;
+    for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{} {}", wanted, k);
+    return name;
+  }
 
   // From the ground outwards; balls are the last that the tree takes, as they close a loop best.
   void choose_tree() {
@@ -109,7 +118,7 @@ class MjcfWriter {
   void write_body(int b) {
     const BodyDescription& body = m_.bodies[b];
     open("body");
-    attribute("name", body.name);
+    attribute("name", body_names_[b]);
     place(body.center_of_mass, body.axes, parent_[b]);
     if (by_[b] >= 0) {
       write_joints(m_.joints[by_[b]], m_.joints[by_[b]].second == b, body.center_of_mass, body.axes);
@@ -152,7 +161,8 @@ class MjcfWriter {
     int count = 0;
     const auto one = [&](const char* type, const Vec3& axis) {
       open("joint");
-      attribute("name", ++count == 1 ? joint.name : fmt::format("{} {}", joint.name, count));
+      attribute("name",
+                ++count == 1 ? joint.name : own_name(taken_by_joints_, fmt::format("{} {}", joint.name, count)));
       printer_.PushAttribute("type", type);
       attribute("pos", list(R_WB.transpose() * (joint.point - p_WB)));
       if (std::string(type) != "ball") attribute("axis", list(R_WB.transpose() * axis));
@@ -191,33 +201,33 @@ class MjcfWriter {
         continue;
       const double mass = between_mass(mechanism_), radius = 0.1 * mechanism_.characteristic_length();
       open("body");
-      attribute("name", end_of(joint));
+      attribute("name", ends_[j]);
       place(joint.point, Mat3::Identity(), body);
       write_joints(joint, true, joint.point, Mat3::Identity());
       write_inertial(mass, Vec3::Zero(), mass * radius * radius * Mat3::Identity());
       printer_.CloseElement();
     }
   }
-  static std::string end_of(const JointDescription& joint) { return joint.name + " end"; }
 
   void write_equalities() {
     open("equality");
+    std::set<std::string> taken;
     for (std::size_t j = 0; j < m_.joints.size(); ++j) {
       const JointDescription& joint = m_.joints[j];
       if (in_tree_[j]) continue;
       const bool ball = joint.type == JointType::spherical;
       const int first = joint.first, second = joint.second;
       open(ball ? "connect" : "weld");
-      attribute("name", joint.name + (ball ? "" : " closed"));
+      attribute("name", own_name(taken, joint.name + (ball ? "" : " closed")));
       if (ball || joint.type == JointType::fixed) {
         // The first body that is named is one that moves.
         const int a = first == kGround ? second : first, b = first == kGround ? first : second;
-        attribute("body1", m_.bodies[a].name);
-        if (b != kGround) attribute("body2", m_.bodies[b].name);
+        attribute("body1", body_names_[a]);
+        if (b != kGround) attribute("body2", body_names_[b]);
         if (ball) attribute("anchor", list(in_body(a, joint.point)));
       } else {
-        attribute("body1", end_of(joint));
-        if (second != kGround) attribute("body2", m_.bodies[second].name);
+        attribute("body1", ends_[j]);
+        if (second != kGround) attribute("body2", body_names_[second]);
       }
       printer_.CloseElement();
     }
@@ -279,6 +289,9 @@ class MjcfWriter {
   tinyxml2::XMLPrinter printer_;
   std::vector<int> parent_, by_;  // of bodies: parent and joint in the tree, or -1
   std::vector<bool> in_tree_;     // of joints
+  std::set<std::string> taken_by_bodies_ = {"world"}, taken_by_joints_;
+  std::vector<std::string> body_names_,
+      ends_;  // of bodies; of joints beyond the tree, the bodies of hardly any mass that hang by them
 };
 
 }  // namespace

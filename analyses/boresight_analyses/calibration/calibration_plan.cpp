@@ -194,6 +194,18 @@ void refuse_runs_held_out(const CalibrationPlan& plan, const CalibrationProblem&
                        "windows shorter than a run, as each run has offsets of its own (offsets_per_run), which "
                        "readings of it that are fitted have to tell");
   }
+  for (const CalibrationProblem::Offset& offset : problem.offsets) {
+    const CalibrationRun& run = problem.runs[static_cast<std::size_t>(offset.run)];
+    const auto read = run.data.value.col(problem.column(offset.run, offset.channel)).array();
+    if (std::none_of(problem.windows.begin(), problem.windows.end(), [&](const Window& w) {
+          return w.run == offset.run && !w.held_out && read.segment(w.first, w.last - w.first + 1).isFinite().any();
+        }))
+      throw InputError(plan.hold_out_origin, "calibrate.hold_out",
+                       "every window in which " + run.name + " has readings of " +
+                           channel_names()[problem.channels[static_cast<std::size_t>(offset.channel)]].name,
+                       "a smaller share or shorter windows, as each run has offsets of its own (offsets_per_run), "
+                       "which readings of it that are fitted have to tell");
+  }
 }
 
 }  // namespace

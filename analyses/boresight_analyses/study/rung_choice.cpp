@@ -1,6 +1,7 @@
 #include "boresight_analyses/study/rung_choice.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <tuple>
 
 #include "boresight/ladder/ladder.hpp"
@@ -78,7 +79,17 @@ RunOptions options_on(const std::string& rung, const std::shared_ptr<const Mecha
 RungChoice choose_rung(const RungQuestion& question, std::shared_ptr<const Mechanism> mechanism,
                        const std::vector<Parameters>& samples) {
   check_rung_name(question.asked);
-  if (question.asked != "auto") return {question.asked, "asked for by name"};
+  if (question.asked != "auto") {
+    RungChoice named{question.asked, "asked for by name"};
+    if (question.accuracy) {
+      char text[100];
+      std::snprintf(text, sizeof text,
+                    ": no pilot has compared it with multibody, to hold it against the %.3g %% asked for",
+                    100.0 * *question.accuracy);
+      named.why += text;
+    }
+    return named;
+  }
   const std::string most_exact = rung_names().back();  // cheapest first, so the last one leaves out least
   if (question.wants_multibody) return {most_exact, "the only rung that has the options given"};
   if (mechanism->clearances() == 0 && !samples.empty() && std::none_of(samples.begin(), samples.end(), has_errors))

@@ -15,6 +15,7 @@
 #include "budget/budget_report.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
+#include "report_parts/report_parts.hpp"
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
@@ -29,9 +30,6 @@
 namespace boresight::app {
 namespace {
 
-// Errors of this size are rounding, in m or rad: a budget of them says nothing.
-constexpr double kNextToNothing = 1e-11;
-
 struct RunsSeen {
   Failures failures;
   double largest = 0.0;  // of the quantity over every step of the members' runs
@@ -39,7 +37,7 @@ struct RunsSeen {
   double model_error = 0.0;  // mean
 };
 
-RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs, const BudgetPlan& plan) {
+RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs, const BudgetPlan& plan, double rounding) {
   RunsSeen seen;
   double done = 0.0;
   store.read(runs.drawn(runs.rows()), [&](const SampleRecord& r) {
@@ -48,7 +46,7 @@ RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs, const Budge
     done += 1.0;
     seen.model_error += r.outcome.model_error;
     seen.largest = std::max(seen.largest, r.outcome.value);
-    if (plan.start > 0.0 || r.outcome.value < kNextToNothing) return;
+    if (plan.start > 0.0 || r.outcome.value < rounding) return;
     double sampled = 0.0;
     for (const Vec3& e : sampled_history(store, r.number, plan).error) sampled = std::max(sampled, e.norm());
     seen.missed = std::max(seen.missed, 1.0 - sampled / r.outcome.value);
@@ -143,7 +141,7 @@ class BudgetVerb : public Verb {
                        .warnings = {},
                        .leaves_out = model.leaves_out(),
                        .step = model.step()};
-    const RunsSeen seen = runs_seen(store, runs, plan);
+    const RunsSeen seen = runs_seen(store, runs, plan, rounding_of(*mechanism, study.index.si_unit()));
     result.model_error = seen.model_error;
     result.steps = steps;
     if (budget) result.warnings = warnings_of(result, seen);
@@ -210,7 +208,7 @@ class BudgetVerb : public Verb {
           fmt::format("{} of {} runs failed; a member whose own run failed counts as bad in every answer",
                       seen.failures.count, s.runs.count()) +
           first_failure_text(seen.failures, "run"));
-    if (seen.largest < kNextToNothing && s.runs.joints() > 0)
+    if (seen.largest < rounding_of(s.mechanism, s.study.index.si_unit()) && s.runs.joints() > 0)
       warnings.push_back("the clearances make no " + s.study.index.quantity_title() +
                          " beyond rounding: where journal and sleeve axes are kept parallel they turn nothing; axes = "
                          "\"free\" lets them tilt");

@@ -223,9 +223,12 @@ report::Document chart_report(const Command& command, const Mechanism& mechanism
                             : fmt::format("No way comes within {}.", readable_share(wanted))};
   for (const std::string& name : result.flight.left_out)
     document.warnings.push_back("no time was left for the flight before the first impact of " + name);
-  document.facts.push_back({.label = "Reference",
-                            .value = readable(result.reference.value, result.unit),
-                            .note = "known to " + readable_error(result.reference.uncertainty)});
+  if (result.reference.refinements.empty())
+    document.facts.push_back({.label = "Reference", .value = "none yet"});
+  else
+    document.facts.push_back({.label = "Reference",
+                              .value = readable(result.reference.value, result.unit),
+                              .note = "known to " + readable_error(result.reference.uncertainty)});
   if (papers)
     document.facts.push_back({.label = "The setting of Sun, Song and Wang",
                               .value = readable(papers->measured.cpu_seconds, "s"),
@@ -242,7 +245,8 @@ report::Document chart_report(const Command& command, const Mechanism& mechanism
   }
   if (result.flight.first_contact > 0.0 || !result.flight.why_not.empty())
     document.sections.push_back(flight_section(result.flight));
-  document.sections.push_back(reference_section(result.reference, result.unit));
+  if (!result.reference.refinements.empty())
+    document.sections.push_back(reference_section(result.reference, result.unit));
   document.provenance = provenance_of(command, mechanism, {"all", "the chart compares them"});
   document.provenance.push_back({"Machine", machine_line(result.machine)});
   return document;

@@ -83,8 +83,10 @@ Json summary_of(const VerbStudy& own, const ChartResult& result, std::optional<d
                 const SampleStore::Cost& earlier) {
   Json json = own.head(kAllRungs, watch, warnings_of(result), result.interrupted, earlier);
   json["index"] = result.index;
-  json["reference"] = {
-      {"value", result.reference.value}, {"uncertainty", result.reference.uncertainty}, {"refinements", Json::array()}};
+  const bool referred = !result.reference.refinements.empty();  // an interrupted chart may have none yet
+  json["reference"] = {{"value", referred ? Json(result.reference.value) : Json()},
+                       {"uncertainty", referred ? Json(result.reference.uncertainty) : Json()},
+                       {"refinements", Json::array()}};
   for (const Refinement& r : result.reference.refinements)
     json["reference"]["refinements"].push_back({{"step", r.step}, {"value", r.value}, {"half_spread", r.half_spread}});
   json["machine"] = {{"processor", result.machine.processor},
@@ -113,8 +115,11 @@ void print(const Command& command, const Mechanism& mechanism, const ChartResult
            std::optional<double> accuracy, const OutputDirectory& out) {
   tell("{}: accuracy against speed, {}{}\n", mechanism.name(), result.index,
        result.interrupted ? " (interrupted; the same command goes on)" : "");
-  tell("  reference {}, known to {}\n", readable(result.reference.value, result.unit),
-       readable_error(result.reference.uncertainty));
+  if (result.reference.refinements.empty())
+    tell("  no reference yet\n");
+  else
+    tell("  reference {}, known to {}\n", readable(result.reference.value, result.unit),
+         readable_error(result.reference.uncertainty));
   tell("  Pareto front:\n");
   for (std::size_t k : result.front) {
     const ChartPoint& p = result.points[k];

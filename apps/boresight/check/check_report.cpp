@@ -122,14 +122,13 @@ void add_law_notes(const Mechanism& mechanism, CheckResult& result) {
   }
 }
 
-// Plays that cannot move, or only together; and an ideal motion that is not known as well as it should be.
+// Plays that cannot move, or only together.
 void add_play_findings(const Mechanism& mechanism, const IdealMotion& ideal, CheckResult& result) {
   IdealState state;
   ideal.state(generic_instant(0.0, ideal.duration()), state);
   const PlayMobility play = analyse_play(mechanism, state.bodies);
   for (const std::string& sentence : held_plays(mechanism, play)) result.findings.push_back(sentence);
   for (const std::string& sentence : bound_plays(mechanism, play)) result.notes.push_back(sentence);
-  if (const std::string doubt = doubt_of(ideal); !doubt.empty()) result.notes.push_back(doubt);
 }
 
 // Parts that grow, and what is fixed to them but their joints.
@@ -294,6 +293,7 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
               "go on smoothly, and rungs other than multibody may end there",
               k.passed.front(), k.passed.size() > 1 ? fmt::format(", and {} more", k.passed.size() - 1) : ""));
       }
+      if (const std::string doubt = doubt_of(ideal); !doubt.empty()) result.notes.push_back(doubt);
       if (mechanism.clearances() == 0) return result;
       add_play_findings(mechanism, ideal, result);
       for (const std::string& sentence : overrun_plays(mechanism, mechanism.parameters(), ideal))

@@ -11,7 +11,8 @@
 
 namespace boresight::app {
 
-void announce(const MonteCarloQuestion& question, const RungChoice& choice, std::uint64_t stored, int ranks) {
+void announce(const MonteCarloQuestion& question, const RungChoice& choice, bool accuracy_asked, std::uint64_t stored,
+              int ranks) {
   const MonteCarloPlan& plan = question.plan;
   tell("{}: {} samples ({}), {} random parameters{}{}\n", question.mechanism->name(), plan.samples, plan.design.text(),
        plan.inputs.size(), stored > 0 ? fmt::format(", {} of them stored already", stored) : "",
@@ -20,6 +21,8 @@ void announce(const MonteCarloQuestion& question, const RungChoice& choice, std:
     const double study = static_cast<double>(plan.samples) * choice.pilot->trials[choice.pilot->chosen].cpu_seconds;
     tell("  rung: {}, {}\n  the pilot took {} of CPU, the study will take about {}\n", choice.name, choice.why,
          readable(choice.pilot->cpu_seconds, "s"), readable(study, "s"));
+  } else if (accuracy_asked) {
+    tell("  rung: {}, {}\n", choice.name, choice.why);
   }
   if (plan.requirement) {
     const auto fewest = [&](std::int64_t above) {

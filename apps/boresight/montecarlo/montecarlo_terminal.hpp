@@ -10,7 +10,8 @@
 namespace boresight::app {
 
 // stored: samples that the store has already.
-void announce(const MonteCarloQuestion& question, const RungChoice& choice, std::uint64_t stored, int ranks);
+void announce(const MonteCarloQuestion& question, const RungChoice& choice, bool accuracy_asked, std::uint64_t stored,
+              int ranks);
 void show(Stage& stage, const MonteCarloProgress& p, const MonteCarloQuestion& question);
 void print(const MonteCarloStudy& s, const OutputDirectory& out);
 

@@ -157,7 +157,7 @@ class MonteCarloVerb : public Verb {
       return kDone;
     }
     store->use_rung(model.rung(), model.step());
-    if (!command.quiet) announce(question, choice, store->count(), ranks->size());
+    if (!command.quiet) announce(question, choice, asked.accuracy.has_value(), store->count(), ranks->size());
     const std::unique_ptr<Stage> stage = own->run().stage(static_cast<double>(question.plan.samples), "samples");
     options.progress = [&](const MonteCarloProgress& p) { show(*stage, p, question); };
     const std::uint64_t begun_with = store->count();

@@ -62,7 +62,7 @@ PointingIndices at_rest(MechanismDescription description, JournalAxes axes, cons
 
 }  // namespace
 
-std::optional<AxesComparison> compare_axes(const Mechanism& mechanism) {
+std::optional<AxesComparison> compare_axes(const Mechanism& mechanism, std::string& left_out) {
   const MechanismDescription& m = mechanism.description();
   if (m.clearances.empty()) return {};
   for (const ClearanceDescription& c : m.clearances)
@@ -83,6 +83,9 @@ std::optional<AxesComparison> compare_axes(const Mechanism& mechanism) {
     return {};
   } catch (const Interrupted&) {
     if (interrupted()) throw;
+    left_out = fmt::format(
+        "what free journal axes change at rest is not compared with parallel ones: here that takes more than {:d} s",
+        kMostTime.count());
     return {};
   }
   // Rounding of a motion integrated in metres.

@@ -15,7 +15,8 @@ struct AxesComparison {
   std::string sentence;
 };
 
-// By the quasistatic rung. Nothing where it cannot be applied, or where a joint's sleeve has no length.
-std::optional<AxesComparison> compare_axes(const Mechanism& mechanism);
+// By the quasistatic rung. Nothing where it cannot be applied, or where a joint's sleeve has no length; nor where it takes too long, which
+// left_out then says.
+std::optional<AxesComparison> compare_axes(const Mechanism& mechanism, std::string& left_out);
 
 }  // namespace boresight::app

@@ -228,7 +228,10 @@ class RunVerb : public Verb {
         for (const std::string& name : rung_names())
           if (name != choice.name)
             others.push_back(run_other(name, mechanism, options, motion_.run_options(*mechanism, "auto").step));
-      if (!cut_short) axes = compare_axes(*mechanism);
+      if (std::string left_out; !cut_short) {
+        axes = compare_axes(*mechanism, left_out);
+        if (!left_out.empty()) result.warnings.push_back(left_out);
+      }
       // Rungs without steps have no trajectory to lose.
       if (!integrator_names(choice.name).empty() && mechanism->clearances() > 0 && !cut_short)
         predictability = measure_predictability(mechanism, mechanism->parameters());

@@ -77,32 +77,42 @@ class ClosedMechanism {
 
 using Knots = std::vector<IdealState>;
 
-// RK4 in equal steps to `end`: not the Integrator's loop, because the bodies are brought back into their joints after each.
-std::optional<Knots> follow_explicit(const Task& task, double end, int steps, Failure& failure) {
+// RK4 in equal steps to `end`, every state shown to `see`: not the Integrator's loop, because the bodies are brought back into their joints after
+// each step. False where the end is not reached.
+template <typename See>
+bool reaches(const Task& task, double end, int steps, Failure& failure, const See& see) {
   ClosedMechanism closed(task);
   VecX y = closed.start();
   ExplicitRungeKutta method(classical_rk4(), y.size());
   const double h = end / steps;
-  Knots knots;
-  knots.reserve(steps + 1);
+  double last = 0.0;
   const auto derivative = [&](double t, const VecX& state, VecX& dy) { closed.derivative(t, state, dy); };
   for (int i = 0; i <= steps; ++i) {
     const double t = i * h;
     work_reached("simulating the ideal motion", static_cast<double>(i) / steps);
-    knots.push_back(closed.bodies(t, y, method.first_slope()));
+    see(closed.bodies(t, y, method.first_slope()));
+    last = t;
     if (!method.first_slope().allFinite()) break;
-    if (i == steps) return knots;
+    if (i == steps) return true;
     method.step(t, h, y, derivative);
     if (!y.allFinite()) break;
     try {
       closed.stabilise(t + h, y);
     } catch (const ComputationError& unsettled) {
       failure = {t + h, unsettled.what()};
-      return std::nullopt;
+      return false;
     }
   }
-  failure = {knots.back().t, closed.failure().reason};
-  return std::nullopt;
+  failure = {last, closed.failure().reason};
+  return false;
+}
+
+std::optional<Knots> follow_explicit(const Task& task, double end, int steps, Failure& failure) {
+  Knots knots;
+  knots.reserve(steps + 1);
+  if (!reaches(task, end, steps, failure, [&](IdealState&& state) { knots.push_back(std::move(state)); }))
+    return std::nullopt;
+  return knots;
 }
 
 // RODAS4 under error control, which steps over what springs and dampers have damped out; knots where its steps end.
@@ -167,7 +177,7 @@ bool fails_by_its_step(const Task& task, const Failure& failure, double step) {
   const double end = std::min(task.mechanism.duration(), 1.5 * failure.t + 2.0 * step);
   const double steps = std::max<double>(kFewest, kFiner * end / step);
   Failure again;
-  return steps <= kMost && follow_explicit(task, end, static_cast<int>(steps), again).has_value();
+  return steps <= kMost && reaches(task, end, static_cast<int>(steps), again, [](const IdealState&) {});
 }
 
 // Steps halved until two motions agree. Those that blow up are too long; but a motion that fails at the same time whatever the
@@ -256,14 +266,15 @@ IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameter
   return is_kinematic(mechanism) ? IdealMotion::kinematic(mechanism) : simulated_motion(mechanism, parameters);
 }
 
-std::string doubt_of(const IdealMotion& motion) {
+std::string doubt_of(const IdealMotion& motion, double error_of_built) {
   std::string doubt;
   char text[250];
-  if (motion.error() > IdealMotion::kAccuracy) {
+  const double error = std::max(motion.error(), error_of_built);
+  if (error > IdealMotion::kAccuracy) {
     std::snprintf(text, sizeof text,
                   "the ideal motion is known to %.1e of the mechanism's size, not to %.0e as it was sought; so are the "
                   "deviations from it",
-                  motion.error(), IdealMotion::kAccuracy);
+                  error, IdealMotion::kAccuracy);
     doubt = text;
   }
   if (motion.lost().empty()) return doubt;

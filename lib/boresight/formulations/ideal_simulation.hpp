@@ -30,8 +30,9 @@ struct SimulationSize {
 // what it is wrong by.
 IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& parameters, const SimulationSize& most = {});
 
-// For a result's warnings: that the motion is not known as well as it was sought, or passes singular poses. Empty where neither is so.
-std::string doubt_of(const IdealMotion& motion);
+// For a result's warnings: that the drawn mechanism's motion, or the built one's by its error(), is not known as well as it was sought; or that
+// it passes singular poses. Empty where neither is so.
+std::string doubt_of(const IdealMotion& drawn, double error_of_built = 0.0);
 
 // A sample's mechanism as it is built, and its motion without clearance.
 struct BuiltMotion {

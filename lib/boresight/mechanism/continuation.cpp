@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/ideal_motion.hpp"
@@ -21,9 +22,9 @@ double shortest_step(double duration) { return std::max(std::min(1e-7 * duration
 // Whether the velocities and accelerations of two states tell what lies between them: those of a smooth motion do to the step's fifth power,
 // by Hermite's rule. Velocities of a pose that more than one branch passes are of none of them, and do not.
 bool joined_smoothly(const IdealState& from, const IdealState& to, double length) {
-  constexpr double kShare = 1e-6, kRounding = 1e-13;
+  constexpr double kShare = 1e-6, kRounding = 1e-13, kDigitsOfPoses = 32.0 * std::numeric_limits<double>::epsilon();
   const double dt = to.t - from.t;
-  double missed = 0.0, moved = 0.0;
+  double missed = 0.0, moved = 0.0, farthest = 0.0;
   for (std::size_t b = 0; b < from.bodies.size(); ++b) {
     const BodyMotion &x = from.bodies[b], &y = to.bodies[b];
     Vec6 way, told;
@@ -32,10 +33,11 @@ bool joined_smoothly(const IdealState& from, const IdealState& to, double length
     told << x.v + y.v, x.w + y.w;
     told = 0.5 * dt * told + dt * dt / 12.0 * (from.acceleration[b] - to.acceleration[b]);
     const Vec6 miss = way - told;
+    farthest = std::max(farthest, x.p.lpNorm<Eigen::Infinity>() / length);
     missed = std::max({missed, miss.head<3>().norm() / length, miss.tail<3>().norm()});
     moved = std::max({moved, way.head<3>().norm() / length, way.tail<3>().norm()});
   }
-  return missed < kShare * moved + kRounding;
+  return missed < kShare * moved + std::max(kRounding, kDigitsOfPoses * farthest);
 }
 
 // One step. A pose near a singular one whose velocities do not go on from those before it is not asked for them: the motion is solved beyond

@@ -22,6 +22,14 @@ namespace {
 // and so many at most.
 constexpr int kKnotsBetweenPoses = 8, kMostPoses = 2001;
 
+// Of so many poses those that singular values are found at in some seconds: their time grows by the cube of their number.
+int affordable(int poses, Eigen::Index values) {
+  constexpr double kMultiplications = 1e9;
+  constexpr int kFewest = 21;
+  return std::clamp(static_cast<int>(kMultiplications / std::pow(static_cast<double>(values), 3)),
+                    std::min(kFewest, poses), poses);
+}
+
 double inverse_condition(const MatX& A) {
   if (A.size() == 0) return 0.0;
   const VecX s = singular_values(A);
@@ -30,9 +38,10 @@ double inverse_condition(const MatX& A) {
 
 // How the boresight body's velocity and angular velocity show in the drives: the rows of D in drive rates = D (v, w).
 // Angle drives answer for orientation and displacement drives for position where a mechanism has enough of both.
-void conditioning(const Mechanism& mechanism, ConstraintSystem& driven, const std::vector<Mat6>& weight,
-                  ConditioningSample& sample) {
-  std::vector<int> drive_blocks;
+void conditioning(const Mechanism& mechanism, ConstraintSystem& driven, ConditioningSample& sample) {
+  const int drives = static_cast<int>(std::count_if(driven.joints().begin(), driven.joints().end(),
+                                                    [](const JointConstraint& joint) { return joint.has_drive(); }));
+  if (drives != 6) return;  // fewer drives than freedoms of the body: the two numbers have no meaning
   MatX twist(6, 0);
   std::vector<bool> is_angle;
   for (int k = 0; k < driven.blocks(); ++k) {
@@ -45,8 +54,6 @@ void conditioning(const Mechanism& mechanism, ConstraintSystem& driven, const st
     twist.col(twist.cols() - 1) = u[mechanism.boresight_body()];
     is_angle.push_back(mechanism.description().joints[driven.joints()[k].joint()].type == JointType::revolute);
   }
-  (void)weight;
-  if (twist.cols() != 6) return;  // fewer drives than freedoms of the body: the two numbers have no meaning
   const Eigen::FullPivLU<MatX> lu(twist);
   if (!lu.isInvertible()) return;
   const MatX D = lu.inverse();
@@ -183,6 +190,7 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
     return report;
   }
   if (ideal) samples = std::clamp(ideal->knots() / kKnotsBetweenPoses, samples, std::max(samples, kMostPoses));
+  samples = affordable(samples, 6 * mechanism.bodies());
   bool inside_singular = false;
   for (int k = 0; k < samples; ++k) {
     const double t = mechanism.duration() * k / (samples - 1);
@@ -222,7 +230,7 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
       if (!inside_singular) report.lost.push_back(lost_motion(mechanism, driven, t, false));
     } else {
       driven.set_redundant(r.rank < r.rows);
-      if (driven.factor(weight)) conditioning(mechanism, driven, weight, sample);
+      if (driven.factor(weight)) conditioning(mechanism, driven, sample);
     }
     inside_singular = singular;
     report.along.push_back(sample);
@@ -240,9 +248,8 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
                                    [](const JointDescription& j) { return j.type != JointType::fixed; });
   if (report.mobility == 0 && report.drives == 0 && jointed && !m.motion.pose)
     report.findings.push_back(
-        "nothing can move: the joints together leave no freedom, and none is driven; if they should, axes that are "
-        "meant "
-        "to be parallel or to meet may differ by a little");
+        "nothing can move: the joints together leave no freedom, and none is driven; if something should move, axes "
+        "that are meant to be parallel or to meet may differ by a little");
   for (const LostMotion& lost : report.lost)
     report.findings.push_back("singular at t = " + number(lost.t) + " s: " + lost.description);
   if (report.redundant_rows > 0)
@@ -265,11 +272,7 @@ void look_along(const Mechanism& mechanism, const IdealMotion& motion, Kinematic
   const VecX elsewhere = values_at(generic_instant(0.0, motion.duration()));
   const auto rank = (elsewhere.array() > kRankTolerance * (elsewhere.size() > 0 ? elsewhere[0] : 0.0)).count();
   if (rank == 0) return;
-  // Singular values take a time that grows by the cube of their number.
-  constexpr double kFlops = 1e9;
-  constexpr int kFewest = 21;
-  samples = std::clamp(static_cast<int>(kFlops / std::pow(static_cast<double>(elsewhere.size()), 3)),
-                       std::min(kFewest, samples), samples);
+  samples = affordable(samples, elsewhere.size());
   const auto lock = [&](double t) {
     const VecX values = values_at(t);
     return values[rank - 1] / values[0];

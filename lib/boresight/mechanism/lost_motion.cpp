@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "boresight/mechanism/ideal_motion.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 
 namespace boresight {
@@ -28,10 +29,10 @@ class Locks {
                      mechanism.description().motion.pose ? mechanism.description().motion.pose->body : kGround}),
         laws_(mechanism.joints()) {}
 
-  double at(double t) {
+  VecX at(double t) {
     motion_.state(t, state_);
     system_.evaluate(state_.bodies, laws_);
-    return weakest_lock(mechanism_, system_);
+    return locks(mechanism_, system_);
   }
 
   LostMotion lost_at(double t) {
@@ -70,15 +71,19 @@ double weakest_between(double t0, double t1, const std::function<double(double)>
   return 0.5 * (t0 + t1);
 }
 
-double weakest_lock(const Mechanism& mechanism, const ConstraintSystem& evaluated) {
+VecX locks(const Mechanism& mechanism, const ConstraintSystem& evaluated) {
   const Eigen::SparseMatrix<double> J =
       scaled_rows(evaluated.dense_jacobian(), mechanism.characteristic_length()).sparseView();
   const Eigen::SparseMatrix<double> A = J.transpose() * J;
   // In the order of the bodies, which no entry that is zero for a moment changes: pivots then change as smoothly as the pose.
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factors(A);
   // Pivots are squares of locks; the smallest is zero where A is singular, and only there.
-  if (factors.info() != Eigen::Success) return 0.0;
-  return std::sqrt(std::max(0.0, factors.vectorD().minCoeff()) / A.diagonal().maxCoeff());
+  if (factors.info() != Eigen::Success) return VecX::Zero(A.cols());
+  return (factors.vectorD().cwiseMax(0.0) / A.diagonal().maxCoeff()).cwiseSqrt();
+}
+
+double weakest_lock(const Mechanism& mechanism, const ConstraintSystem& evaluated) {
+  return locks(mechanism, evaluated).minCoeff();
 }
 
 LostMotion lost_motion(const Mechanism& mechanism, const ConstraintSystem& evaluated, double t, bool with_pose) {
@@ -95,23 +100,35 @@ std::vector<LostMotion> lost_motions(const Mechanism& mechanism, const IdealMoti
   std::vector<LostMotion> lost;
   // The joints of an open chain, each with its drive, hold it everywhere.
   if (mechanism.joints() == mechanism.bodies() && !mechanism.description().motion.pose) return lost;
-  Locks locks(mechanism, motion);
+  Locks seen(mechanism, motion);
   const int looks = std::clamp(motion.knots() / kKnotsBetweenLooks, kFewestLooks, kMostLooks);
   const auto time = [&](int k) { return motion.duration() * k / looks; };
-  std::vector<double> lock;
-  for (int k = 0; k <= looks; ++k) lock.push_back(locks.at(time(k)));
-  double found_until = -1.0;
+  std::vector<VecX> lock;
   for (int k = 0; k <= looks; ++k) {
-    const int before = std::max(k - 1, 0), after = std::min(k + 1, looks);
-    if (!may_be_zero_near(lock[k], lock[before], lock[after])) continue;
-    const double t = lock[k] < kSingular
-                         ? time(k)
-                         : weakest_between(time(before), time(after), [&](double at) { return locks.at(at); });
-    if (t <= found_until || locks.at(t) > kHeld) continue;
-    LostMotion one = locks.lost_at(t);
-    if (!(one.measure < kSingular)) continue;
-    lost.push_back(std::move(one));
-    found_until = time(after);
+    work_reached("looking for singular poses", static_cast<double>(k) / looks);
+    lock.push_back(seen.at(time(k)));
+  }
+  // Each lock by itself: one that is weak everywhere, of a part that is far smaller than the mechanism, hides no other.
+  std::vector<double> dips;
+  for (Eigen::Index one = 0; one < lock.front().size(); ++one)
+    for (int k = 0; k <= looks; ++k) {
+      const int before = std::max(k - 1, 0), after = std::min(k + 1, looks);
+      if (!may_be_zero_near(lock[k][one], lock[before][one], lock[after][one])) continue;
+      // A pose that is singular for a while is one.
+      if (k > 0 && lock[before][one] < kSingular && lock[k][one] < kSingular) continue;
+      const double t = lock[k][one] < kSingular
+                           ? time(k)
+                           : weakest_between(time(before), time(after), [&](double at) { return seen.at(at)[one]; });
+      if (seen.at(t)[one] <= kHeld) dips.push_back(t);
+    }
+  std::sort(dips.begin(), dips.end());
+  double found = -1.0;
+  for (const double t : dips) {
+    if (found >= 0.0 && t - found < motion.duration() / looks) continue;
+    LostMotion lost_there = seen.lost_at(t);
+    if (!(lost_there.measure < kSingular)) continue;
+    lost.push_back(std::move(lost_there));
+    found = t;
   }
   return lost;
 }

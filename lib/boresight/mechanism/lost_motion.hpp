@@ -22,8 +22,9 @@ struct LostMotion {
 // elasticity by more than they hold.
 inline constexpr double kSingular = 1e-6;
 
-// How well the rows hold what they hold least, of the size of the smallest singular value over the largest and zero with it, redundant or
-// not: for a small part of the time of singular values. `evaluated`: a system on which evaluate() was called at the pose.
+// How well the rows hold one freedom of the bodies after another, redundant or not: the least of them is zero where the smallest singular value is,
+// for a small part of the time of singular values. `evaluated`: a system on which evaluate() was called at the pose.
+VecX locks(const Mechanism& mechanism, const ConstraintSystem& evaluated);
 double weakest_lock(const Mechanism& mechanism, const ConstraintSystem& evaluated);
 
 // Whether a lock may fall to zero beside a time at which it is looked at, seen before and after it too; and the time from t0 to t1 at which it

@@ -175,12 +175,12 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
   if (!start_warning.empty()) result.warnings.push_back(start_warning);
   if (const std::string warning = damping.warning(); !warning.empty()) result.warnings.push_back(warning);
   result.damped_beyond_steps = damping.beyond();
+  result.energy_error = energy.error();
   run.complete(result, trackers);
   char text[60];
   std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);
   result.integrator = text;
   result.constraint_drift = drift;
-  result.energy_error = energy.error();
   result.error = {{}, kNotMeasured, ""};
   result.interrupted = interrupted;
   result.cost.steps = steps;

@@ -121,11 +121,11 @@ RunResult follow_locating_contacts(const MultibodyMotion& run, const std::string
   }
   RunResult result = recorder.finish();
   if (!start_warning.empty()) result.warnings.push_back(start_warning);
+  result.energy_error = energy.error();
   run.complete(result, trackers);
   report_integration(options, kMultibody, integrator, summary, result);
   result.cost.evaluations += system.evaluations();
   result.constraint_drift = drift;
-  result.energy_error = energy.error();
   result.error = {{}, kNotMeasured, ""};
   result.interrupted = interrupted;
   return result;

@@ -78,8 +78,7 @@ class Multibody final : public Rung {
     }
     const std::vector<std::string>& held = held_by_others(*commanded);
     result.warnings.insert(result.warnings.begin(), held.begin(), held.end());
-    if (const std::string doubt = doubt_of(ideal.error() > commanded->error() ? ideal : *commanded); !doubt.empty())
-      result.warnings.push_back(doubt);
+    if (const std::string doubt = doubt_of(*commanded, ideal.error()); !doubt.empty()) result.warnings.push_back(doubt);
     result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
     result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
     return result;

@@ -8,7 +8,18 @@
 namespace boresight {
 namespace {
 
+// More than this share of the largest energy is worth a word: as much of what carries the motion as is mostly asked of an index.
+constexpr double kEnergyLost = 0.01;
+
 void warn(RunResult& result) {
+  if (result.energy_error > kEnergyLost) {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "the steps make or lose up to %.2g %% of the largest energy of this motion; a shorter --step, or an "
+                  "--integrator with error control, keeps it",
+                  100.0 * result.energy_error);
+    result.warnings.push_back(text);
+  }
   for (const ContactSummary& c : result.contact) {
     if (c.impact_speed_above_validity == 0) continue;
     char text[300];

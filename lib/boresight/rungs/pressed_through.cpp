@@ -20,7 +20,7 @@ std::string millimetres(double length) {
 }  // namespace
 
 double insert_thickness(const ClearanceParameters& p) {
-  // But one of them are zero.
+  // All but one of them are zero.
   return std::max({p.journal_radius, p.pad_radius, 0.5 * std::min(p.width, p.height)});
 }
 
@@ -29,7 +29,7 @@ std::optional<std::string> pressed_through(const Mechanism& mechanism, const Par
   const MechanismDescription& description = mechanism.description();
   for (std::size_t c = 0; c < result.contact.size(); ++c) {
     const double depth = result.contact[c].max_penetration, thick = insert_thickness(parameters.clearance[c]);
-    if (!(thick > 0.0) || depth < thick) continue;
+    if (!(thick > 0.0) || !(depth >= thick)) continue;
     const ClearanceDescription& d = description.clearances[c];
     const PlayWords parts = JointPlay::words(d, description.joints[static_cast<std::size_t>(d.joint)].type);
     return result.contact[c].joint + ": the " + parts.insert + " is pressed " + millimetres(depth) + " into its " +
@@ -42,7 +42,7 @@ std::optional<std::string> pressed_through(const Mechanism& mechanism, const Par
 std::optional<std::string> pressed_through(const Parameters& parameters, double deepest) {
   double thick = 0.0;
   for (const ClearanceParameters& c : parameters.clearance) thick = std::max(thick, insert_thickness(c));
-  if (!(thick > 0.0) || deepest < thick) return std::nullopt;
+  if (!(thick > 0.0) || !(deepest >= thick)) return std::nullopt;
   return "a contact is pressed in by " + millimetres(deepest) + ", which is more than the " + millimetres(thick) +
          " that the thickest of the parts in play measures from its middle" + kWhatToCheck;
 }

@@ -175,6 +175,10 @@ class MeasuredByDynamics final : public Rung {
       return result;
     }
     const Measured measured = measure(parameters, options, cost);
+    if (!measured.keeps) {  // a run without its error is not done
+      result.interrupted = true;
+      return result;
+    }
     const ErrorEstimate of_errors = result.error;
     result.error = measured.error;
     result.error.of_play = of_errors.of_play;

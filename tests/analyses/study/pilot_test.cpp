@@ -196,6 +196,9 @@ TEST(RungChoice, AsksNoPilotWhereThereIsNothingToChoose) {
   const auto mechanism = rrcpr({{"motion.duration", "0.1 s"}});
   EXPECT_EQ(choose_rung({.asked = "auto"}, mechanism, {mechanism->parameters()}).name, "multibody");
   EXPECT_EQ(choose_rung({.asked = "envelope"}, mechanism, {mechanism->parameters()}).name, "envelope");
+  EXPECT_EQ(choose_rung({.asked = "envelope"}, mechanism, {}).why, "asked for by name");
+  EXPECT_EQ(choose_rung({.asked = "envelope", .accuracy = 0.01}, mechanism, {}).why,
+            "asked for by name: no pilot has compared it with multibody, to hold it against the 1 % asked for");
   EXPECT_EQ(
       choose_rung({.asked = "auto", .accuracy = 0.01, .wants_multibody = true}, mechanism, {mechanism->parameters()})
           .name,

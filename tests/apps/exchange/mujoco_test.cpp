@@ -85,6 +85,23 @@ TEST(MuJoCo, FindsTheSameDynamicsInAUrdfAndInWhatWeMakeOfIt) {
   }
 }
 
+// Names of a kind differ in MJCF, where one of our joints may be two, and a loop's end a body.
+TEST(MuJoCo, LoadsWhateverNamesBodiesAndJointsHave) {
+  MechanismDescription m = read_mechanism(BORESIGHT_EXAMPLES "/hexapod/hexapod.toml");
+  m.bodies.at(0).name = "world";
+  std::vector<JointDescription*> universal;
+  for (JointDescription& joint : m.joints)
+    if (joint.type == JointType::universal) universal.push_back(&joint);
+  ASSERT_GE(universal.size(), 3u);
+  universal[1]->name = universal[0]->name + " 2";
+  universal[2]->name = universal[0]->name + " 2 2";
+  for (std::size_t j = 0; j < m.joints.size() && j + 1 < m.bodies.size(); ++j)
+    m.bodies[j + 1].name = m.joints[j].name + " end";
+  const Model model(mjcf_of(Mechanism(m)).text, ".xml");
+  mj_forward(model.model.get(), model.data.get());
+  for (int row = 0; row < model.data->ne; ++row) EXPECT_NEAR(model.data->efc_pos[row], 0.0, 1e-9);
+}
+
 // Loops that MuJoCo closes by equalities are closed at home.
 TEST(MuJoCo, FindsTheLoopsOfTheExamplesClosed) {
   for (const char* name : {"3-rrcpr/3-rrcpr.toml", "hexapod/hexapod.toml", "bricard/bricard.toml",

@@ -18,7 +18,7 @@ struct RungSetup {
   double step = 0.0, tolerance = 0.0;
 };
 
-double energy_error(const std::shared_ptr<const Mechanism>& mechanism, const RungSetup& setup) {
+RunResult run(const std::shared_ptr<const Mechanism>& mechanism, const RungSetup& setup) {
   RunOptions options;
   options.sample_spacing = 0.0;
   options.events = false;
@@ -26,8 +26,11 @@ double energy_error(const std::shared_ptr<const Mechanism>& mechanism, const Run
   options.integrator = setup.integrator;
   options.step = setup.step;
   options.tolerance = setup.tolerance;
-  const RunResult result = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
-  return result.energy_error;
+  return make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
+}
+
+double energy_error(const std::shared_ptr<const Mechanism>& mechanism, const RungSetup& setup) {
+  return run(mechanism, setup).energy_error;
 }
 
 // Smooth: half the step, at the fourth order, leaves a sixteenth.
@@ -58,6 +61,18 @@ TEST(EnergyBalance, FollowsTheToleranceOfEveryIntegrator) {
                  tight = energy_error(mechanism, {"tree", integrator, 0.0, 1e-4});
     EXPECT_LT(tight, 10.0 * 1e-4) << integrator << ": many steps, each within the tolerance";
     EXPECT_GT(loose, 4.0 * tight) << integrator;
+  }
+}
+
+TEST(EnergyBalance, IsWarnedOfWhereStepsLoseMoreThanAHundredth) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "30 ms"}}));
+  for (const double tolerance : {0.1, 1e-3}) {
+    const RunResult result = run(mechanism, {"tree", "generalized-alpha", 0.0, tolerance});
+    bool warned = false;
+    for (const std::string& warning : result.warnings)
+      warned = warned || warning.find("of the largest energy of this motion") != std::string::npos;
+    EXPECT_EQ(warned, tolerance > 0.01) << result.energy_error;
+    EXPECT_EQ(warned, result.energy_error > 0.01);
   }
 }
 

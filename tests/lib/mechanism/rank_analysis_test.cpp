@@ -57,6 +57,15 @@ Home ranks_at_home(const MechanismDescription& m, MatX* scaled) {
   return {analyse_rank(mechanism, system, false), constraint_rank(mechanism, system)};
 }
 
+RankAnalysis with_motion_at_home(const MechanismDescription& m) {
+  const Mechanism mechanism(m);
+  ConstraintSystem system(mechanism, {.clearance = ClearanceRows::closed});
+  std::vector<BodyMotion> bodies(mechanism.bodies());
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) bodies[b] = {m.bodies[b].center_of_mass, m.bodies[b].axes};
+  system.evaluate(bodies, std::vector<TimeValue>(mechanism.joints()));
+  return analyse_rank(mechanism, system);
+}
+
 RankAnalysis at_home(const MechanismDescription& m, MatX* scaled = nullptr) {
   return ranks_at_home(m, scaled).analysis;
 }
@@ -87,6 +96,27 @@ TEST(RankAnalysis, GroupByGroupIsThatOfTheWholeMatrix) {
     EXPECT_NEAR(grouped.largest, sigma[0], 1e-13 * sigma[0]);
     EXPECT_NEAR(grouped.weakest, J.rows() >= J.cols() ? sigma[J.cols() - 1] : 0.0, 1e-13 * sigma[0]);
   }
+}
+
+// Few columns are decomposed, many are not.
+TEST(RankAnalysis, FindsTheMotionThatIsResistedLeastInScenesOfAnySize) {
+  for (const int more : {0, 9})
+    for (const bool free : {false, true}) {
+      MechanismDescription m = several(example("four-bar"), more);
+      for (JointDescription& joint : m.joints) joint.driven = true;
+      MatX J;
+      at_home(m, &J);
+      if (free) {
+        for (JointDescription& joint : m.joints) joint.driven = joint.name.back() != '0';
+        at_home(m, &J);
+      }
+      const VecX found = with_motion_at_home(m).least_resisted;
+      const double length = Mechanism(m).characteristic_length();
+      VecX x = found;
+      for (Eigen::Index b = 0; b < x.size() / 6; ++b) x.segment<3>(6 * b) /= length;
+      EXPECT_NEAR(x.norm(), 1.0, 1e-9);
+      EXPECT_NEAR((J * x).norm(), Eigen::JacobiSVD<MatX>(J).singularValues()[J.cols() - 1], 1e-7) << more << free;
+    }
 }
 
 TEST(RankAnalysis, AloneIsTheSameNumber) {
