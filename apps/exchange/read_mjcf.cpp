@@ -220,10 +220,28 @@ class MjcfReader {
     if (model_->dof_damping[dof] != 0.0 || model_->dof_frictionloss[dof] != 0.0)
       leave_out(joint_name(joint) + ": its damping or friction");
     if (model_->dof_armature[dof] != 0.0) leave_out(joint_name(joint) + ": its armature (the rotor's inertia)");
+    const mjtNum at = model_->qpos0[model_->jnt_qposadr[joint]];
+    if ((model_->jnt_type[joint] == mjJNT_HINGE || model_->jnt_type[joint] == mjJNT_SLIDE) && at != 0.0)
+      leave_out(fmt::format("{}: its ref of {:.6g} {}: its course counts from the pose that the file draws",
+                            joint_name(joint), at, model_->jnt_type[joint] == mjJNT_HINGE ? "rad" : "m"));
     if (model_->jnt_limited[joint]) leave_out("limits of joints: they go where [motion] says");
   }
 
+  // Of every equality: how far it is from being closed as the file draws the bodies, metres and radians alike.
+  std::vector<double> open_equalities() {
+    std::vector<double> open(static_cast<std::size_t>(model_->neq), 0.0);
+    mj_fwdPosition(model_.get(), data_.get());
+    for (int row = 0; row < data_->nefc; ++row)
+      if (data_->efc_type[row] == mjCNSTR_EQUALITY) {
+        double& most = open[static_cast<std::size_t>(data_->efc_id[row])];
+        most = std::max(most, std::abs(data_->efc_pos[row]));
+      }
+    return open;
+  }
+
   void read_equalities() {
+    constexpr double kClosed = 1e-6;
+    const std::vector<double> open = open_equalities();
     for (int e = 0; e < model_->neq; ++e) {
       const std::string name = name_of(model_->name_eqadr[e], fmt::format("equality {}", e + 1));
       const int type = model_->eq_type[e], a = model_->eq_obj1id[e], b = model_->eq_obj2id[e];
@@ -231,6 +249,8 @@ class MjcfReader {
         leave_out(name + ": " + (model_->eq_active[e] ? "an equality that ties no two bodies" : "it is not active"));
         continue;
       }
+      if (open[static_cast<std::size_t>(e)] > kClosed)
+        leave_out(name + ": the pose that it asks for (relpose): the bodies are joined as the file draws them");
       Connection made;
       made.name = name;
       made.type = type == mjEQ_WELD ? JointType::fixed : JointType::spherical;

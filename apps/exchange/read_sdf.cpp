@@ -160,9 +160,14 @@ class SdfReader {
     if (name == "__model__" || name.empty()) return {};
     const auto found = model.frames.find(name);
     if (found == model.frames.end()) {
-      // A frame of a model in this one, which was placed before.
-      const int part = part_named(drawing_, model.prefix + name);
-      if (part >= 0) return model.X_WM.inverse() * drawing_.parts[part].X_WP;
+      // A frame of a model in this one, whether that has been read or not.
+      const std::size_t end = name.find("::");
+      const auto inner = model.frames.find(name.substr(0, end));
+      if (end != std::string::npos && inner != model.frames.end() && inner->second.element.tag() == "model") {
+        Model of_it;
+        collect_frames(inner->second.element, of_it);
+        return frame_in_model(model, inner->first, asks, key) * frame_in_model(of_it, name.substr(end + 2), asks, key);
+      }
       std::vector<std::string> names;
       for (const auto& [known, frame] : model.frames) names.push_back(known);
       asks.fail(key, "\"" + name + "\"", "the name of a frame, link or joint", nearest_name(name, names));

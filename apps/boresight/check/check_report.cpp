@@ -13,6 +13,7 @@
 #include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/play_mobility.hpp"
 #include "boresight/play/play_words.hpp"
+#include "boresight/stepping/own_step.hpp"
 #include "boresight_analyses/study/overrun_play.hpp"
 #include "check/contact_findings.hpp"
 #include "check/unlikely_masses.hpp"
@@ -105,21 +106,34 @@ void add_law_notes(const Mechanism& mechanism, CheckResult& result) {
     const ClearanceDescription& d = mechanism.description().clearances[c];
     const ClearanceParameters& p = mechanism.parameters().clearance[c];
     const ContactFrequency& contact = result.contacts[c];
-    if (const auto warning = range_warning(contact.joint, d.contact_law, p, contact.largest_load)) {
+    if (const auto warning = range_warning(contact.joint, d.contact_law, p, contact.largest_radial_load)) {
       result.notes.push_back(*warning);
       continue;
     }
     const bool point = normal_law(d.contact_law).geometry == ContactGeometry::point;
-    const std::string line = fitting_law(p, contact.largest_load);
-    if (!point || d.axes == JournalAxes::free || line.empty() || !(contact.typical_load > 0.0)) continue;
-    const double depth = make_normal_law(line, "", p).depth_under(contact.typical_load);
-    if (std::abs(depth / contact.typical_penetration - 1.0) < 0.25) continue;
+    const std::string line = fitting_law(p, contact.largest_radial_load);
+    if (!point || d.axes == JournalAxes::free || line.empty() || !(contact.typical_radial_load > 0.0)) continue;
+    const double depth = make_normal_law(line, "", p).depth_under(contact.typical_radial_load),
+                 as_point = make_normal_law(d.contact_law, "", p).depth_under(contact.typical_radial_load);
+    if (std::abs(depth / as_point - 1.0) < 0.25) continue;
     result.notes.push_back(fmt::format(
         "{}: {} is a law for a point, and this journal lies along {} of its sleeve: under {}, {} (a line) is {} "
         "deep where it is {}",
-        contact.joint, d.contact_law, readable(p.sleeve_length, "m"), readable(contact.typical_load, "N"), line,
-        readable(depth, "m"), readable(contact.typical_penetration, "m")));
+        contact.joint, d.contact_law, readable(p.sleeve_length, "m"), readable(contact.typical_radial_load, "N"), line,
+        readable(depth, "m"), readable(as_point, "m")));
   }
+}
+
+// Springs and dampers that vibrate faster than any contact: the table of contacts then says too much of RK4's step.
+void add_spring_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckResult& result) {
+  if (mechanism.description().springs.empty()) return;
+  const double stable = largest_step_of_springs(mechanism, mechanism.parameters(), ideal);
+  for (const ContactFrequency& contact : result.contacts)
+    if (contact.largest_stable_step > 0.0 && contact.largest_stable_step <= stable) return;
+  if (stable > 0.0)
+    result.notes.push_back(fmt::format(
+        "springs and dampers vibrate faster than any contact: with them the largest stable step of RK4 is about {}",
+        readable(stable, "s")));
 }
 
 // Plays that cannot move, or only together.
@@ -303,6 +317,7 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
         result.findings.push_back(std::move(finding));
       if (result.findings.empty()) {
         add_law_notes(mechanism, result);
+        add_spring_note(mechanism, ideal, result);
         add_start_note(mechanism, ideal, result);
         add_cost_note(shared, result);
       }

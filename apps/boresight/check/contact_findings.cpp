@@ -32,7 +32,8 @@ std::vector<std::string> contact_findings(const Mechanism& mechanism, const std:
     }
     // A contact as deep as the journal is thick, or the pad is wide, is no contact: the journal would be through its sleeve.
     const JointPlay play(d, mechanism.description().joints[d.joint].type, p);
-    const double depth = play.normal_law().depth_under(contact.largest_load);
+    double depth = play.normal_law().depth_under(contact.largest_radial_load);
+    if (contact.axial_stiffness > 0.0) depth = std::max(depth, contact.largest_axial_load / contact.axial_stiffness);
     const double radius = insert_thickness(p);
     const PlayWords parts = play.words();
     if (!(depth < radius))

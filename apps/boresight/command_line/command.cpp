@@ -46,7 +46,7 @@ void CommandOptions::declare(CLI::App& app, const Verb& verb) {
         ->type_name("PATH=VALUE")
         ->allow_extra_args(false)
         ->take_all();
-  if (used("--out")) app.add_option("--out", out, "where results go; otherwise results/FILE-VERB")->type_name("DIR");
+  if (used("--out")) app.add_option("--out", out, verb.out_is())->type_name("DIR");
   if (used("--rung"))
     app.add_option("--rung", rung, "auto, envelope, quasistatic, perturbation or multibody: how much physics")
         ->type_name("NAME")

@@ -26,6 +26,7 @@ class Verb {
   virtual bool needs_file() const { return true; }
   virtual std::string operand() const { return "FILE"; }  // what --help calls it, and says of it
   virtual std::string operand_is() const { return (needs_file() ? "the " : "a ") + file_kind() + " file"; }
+  virtual std::string out_is() const { return "where results go; otherwise results/FILE-VERB"; }
   virtual std::string json_is() const { return "summary.json to standard output instead of the summary for people"; }
   virtual std::string summary() const = 0;  // one line for --help
   // Commands that work as they stand, in this order, in a folder where `boresight new antenna` was called; one a line.

@@ -107,6 +107,7 @@ class ExportVerb : public Verb {
   std::string file_kind() const override { return "results"; }
   std::string operand() const override { return "DIR"; }
   std::string operand_is() const override { return "the folder of a study's results"; }
+  std::string out_is() const override { return "where samples.csv goes; otherwise into DIR itself"; }
   std::string summary() const override { return "the samples of a study as CSV: samples.csv"; }
   std::string example() const override {
     return "boresight montecarlo antenna/montecarlo.toml\n  boresight export results/montecarlo";

@@ -155,10 +155,10 @@ class LawsVerb : public Verb {
     subject.contact_law = m.clearances[c].contact_law;
     subject.friction_law = m.clearances[c].friction_law;
     const auto contacts = analyse_contacts(mechanism, mechanism.parameters());
-    subject.largest_load = contacts[c].largest_load;
+    subject.largest_load = contacts[c].largest_radial_load;
     for (std::size_t k = 0; k < contacts.size(); ++k)
       if (const auto warning = range_warning(joints[k], m.clearances[k].contact_law,
-                                             mechanism.parameters().clearance[k], contacts[k].largest_load))
+                                             mechanism.parameters().clearance[k], contacts[k].largest_radial_load))
         subject.warnings.push_back(*warning);
     return subject;
   }

@@ -78,15 +78,24 @@ class NewVerb : public Verb {
     discard_staged(folder);
     for (const auto& file : files) stage(folder, file.name, file.text);
     place_staged(folder);
-    if (!command.quiet)
-      tell(
-          "{0}: an antenna whose elevation bearing has play, to be changed into yours\n"
-          "  boresight check {0}/mechanism.toml        what would go wrong, before it does\n"
-          "  boresight run {0}/mechanism.toml          one motion: how far off it points\n"
-          "  boresight montecarlo {0}/montecarlo.toml  how the error scatters\n"
-          "and a study for each of sweep, sensitivity, match, allocate, budget and calibrate\n",
-          folder.string());
+    if (!command.quiet) tell_what_to_do(folder);
     return kDone;
+  }
+
+ private:
+  static void tell_what_to_do(const fs::path& folder) {
+    const auto call = [&](const char* verb, const char* file) {
+      return fmt::format("boresight {} {}", verb, shell_word((folder / file).string()));
+    };
+    const std::string check = call("check", "mechanism.toml"), run = call("run", "mechanism.toml"),
+                      montecarlo = call("montecarlo", "montecarlo.toml");
+    tell(
+        "{0}: an antenna whose elevation bearing has play, to be changed into yours\n"
+        "  {1:<{4}}  what would go wrong, before it does\n"
+        "  {2:<{4}}  one motion: how far off it points\n"
+        "  {3:<{4}}  how the error scatters\n"
+        "and a study for each of sweep, sensitivity, match, allocate, budget and calibrate\n",
+        folder.string(), check, run, montecarlo, montecarlo.size());
   }
 };
 

@@ -15,7 +15,7 @@ const std::vector<FrictionLawEntry>& friction_laws() {
       {"brown-mcphee", FrictionKind::brown_mcphee, "Brown, McPhee (2016)",
        "mu tanh(4 v / v_d) + (mu_s - mu) (v / v_d) / ((v / 2 v_d)^2 + 3/4)^2", true, false},
       {"lugre", FrictionKind::lugre, "Canudas de Wit, Olsson, Astrom, Lischinsky (1995)",
-       "s0 z + s1 z' + s2 v, z' = v - s0 |v| z / (mu + (mu_s - mu) exp(-(v / v_st)^2))", true, true},
+       "s0 z + s1 exp(-(v / v_d)^2) z' + s2 v, z' = v - s0 |v| z / (mu + (mu_s - mu) exp(-(v / v_st)^2))", true, true},
   };
   return laws;
 }

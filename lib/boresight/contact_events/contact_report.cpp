@@ -23,16 +23,31 @@ constexpr double kHeld = 1e-9;
 // The offset compliances and the ideal joints' reactions along the motion. The reaction on each journal is what the ideal
 // joint supplies: the offset's acceleration without it, divided by the compliance. Where joints share a load, the least that
 // they can share, as shared_reactions() has it; where an offset cannot move, none: what holds it carries the load.
+struct Size {
+  double rms = 0.0, max = 0.0;
+
+  void add(double load, int samples) {
+    rms = std::hypot(rms, load / std::sqrt(samples));
+    max = std::max(max, load);
+  }
+};
+struct LoadSizes {
+  Size whole, radial, axial;  // [N]
+};
 struct AlongMotion {
-  std::vector<MatX> compliance;                    // instant by instant
-  std::vector<double> reaction_rms, reaction_max;  // per clearance [N]
+  std::vector<MatX> compliance;  // instant by instant
+  std::vector<LoadSizes> load;   // per clearance
 };
 
-// The larger of the loads that a joint's contacts carry: the force, and on a tilting journal what its couple asks of the ends.
-double radial_load(const VecX& reaction, const OffsetLayout::Joint& at, const JointPlay& joint) {
-  const double force = reaction.segment<3>(at.first).norm();
-  if (!at.tilts) return force;
-  return force + reaction.segment(at.first + 3, at.count() - 3).norm() / joint.lever();
+// The loads that a joint's contacts carry: the force, and on a tilting journal what its couple asks of the ends.
+void add_loads(const VecX& reaction, const OffsetLayout::Joint& at, const JointPlay& joint, int samples,
+               LoadSizes& sizes) {
+  const Vec3 force = reaction.segment<3>(at.first);
+  const double of_couple = at.tilts ? reaction.segment(at.first + 3, at.count() - 3).norm() / joint.lever() : 0.0;
+  const double axial = joint.axial_stiffness() > 0.0 ? std::abs(force.y()) : 0.0;
+  sizes.whole.add(force.norm() + of_couple, samples);
+  sizes.axial.add(axial, samples);
+  sizes.radial.add((axial > 0.0 ? std::hypot(force.x(), force.z()) : force.norm()) + of_couple, samples);
 }
 
 // Of each body as if it were free: what a unit wrench about its own centre of mass accelerates.
@@ -97,8 +112,7 @@ AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, con
   }
   std::vector<ContactMemory> memory(n);
   AlongMotion along;
-  along.reaction_rms.assign(n, 0.0);
-  along.reaction_max.assign(n, 0.0);
+  along.load.resize(n);
   VecX y, dy;
   for (int i = 0; i < samples; ++i) {
     work_reached("weighing contacts along the motion", static_cast<double>(i) / samples);
@@ -136,13 +150,8 @@ AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, con
     const Carried carried = carried_by(A, offset, free, over_levers);
     const VecX& reaction = carried.reaction;
     along.compliance.push_back(carried.compliance);
-    for (int c = 0; c < n; ++c) {
-      const double size = radial_load(reaction, layout.joint(c), joints[c]);
-      along.reaction_rms[c] += size * size / samples;
-      along.reaction_max[c] = std::max(along.reaction_max[c], size);
-    }
+    for (int c = 0; c < n; ++c) add_loads(reaction, layout.joint(c), joints[c], samples, along.load[c]);
   }
-  for (double& r : along.reaction_rms) r = std::sqrt(r);
   return along;
 }
 
@@ -176,16 +185,23 @@ std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const
     f.joint = m.joints[m.clearances[c].joint].name;
     f.hertz_stiffness = law.normal_law().curve == ElasticCurve::point ? law.normal_law().stiffness : 0.0;
     f.axial_stiffness = law.axial_stiffness();
-    f.typical_load = along.reaction_rms[c];
-    f.typical_penetration = law.normal_law().depth_under(f.typical_load);
+    const LoadSizes& load = along.load[c];
+    f.typical_load = load.whole.rms;
+    f.typical_axial_load = load.axial.rms;
+    f.largest_axial_load = load.axial.max;
+    f.typical_radial_load = load.radial.rms;
+    f.largest_radial_load = load.radial.max;
+    f.typical_penetration = law.normal_law().depth_under(f.typical_radial_load);
+    if (f.axial_stiffness > 0.0)
+      f.typical_penetration = std::max(f.typical_penetration, f.typical_axial_load / f.axial_stiffness);
     f.validity_speed = law.validity_speed;
     double largest = 0.0;
     for (const MatX& A : along.compliance)
       largest = std::max(largest,
                          Eigen::SelfAdjointEigenSolver<Mat3>(Mat3(A.block<3, 3>(at.first, at.first))).eigenvalues()[2]);
     f.effective_mass = largest > 0.0 ? 1.0 / largest : 0.0;
-    f.largest_load = along.reaction_max[c];
-    root_stiffness.segment(at.first, at.count()) = law.root_stiffness(along.reaction_max[c]).head(at.count());
+    f.largest_load = load.whole.max;
+    root_stiffness.segment(at.first, at.count()) = law.root_stiffness(f.largest_load).head(at.count());
     result.push_back(f);
   }
   for (const MatX& A : along.compliance) {

@@ -135,8 +135,10 @@ void require_finite(const Cursor& cursor, const std::string& key, const std::str
 
 void require_continuous(const Cursor& cursor, const std::string& key, const std::string& text,
                         const TimeFunction& function, double duration) {
+  constexpr double kAtTheStart = 1e-12;  // of the duration: a corner there is found a little later
   if (const double t = first_jump(function, duration); t >= 0.0)
-    cursor.fail_found(key, in_quotes(text) + ", which jumps or has a corner" + at_time(t),
+    cursor.fail_found(key,
+                      in_quotes(text) + ", which jumps or has a corner" + at_time(t < kAtTheStart * duration ? 0.0 : t),
                       "a law whose value and rate are continuous: round a corner off, as abs(x) to sqrt(x^2 + e^2)");
 }
 

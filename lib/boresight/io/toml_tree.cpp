@@ -91,6 +91,8 @@ void refuse_deep_keys(std::string_view text, const std::string& filename) {
 // the compiler that it never will.
 void refuse_letters_outside_strings(std::string_view text, const std::string& filename) {
   const auto is_at = [&](std::size_t i, std::string_view what) { return text.substr(i, what.size()) == what; };
+  if (is_at(0, "\xFF\xFE") || is_at(0, "\xFE\xFF"))
+    throw InputError({filename, 1}, "", "a text in UTF-16", "one in UTF-8: save it as that");
   int line = 1;
   std::string_view closing;  // of the string or comment in which `i` stands
   for (std::size_t i = is_at(0, "\xEF\xBB\xBF") ? 3 : 0; i < text.size(); ++i) {

@@ -179,40 +179,43 @@ const KeyTable& friction_keys() {
   static const KeyTable table_of_keys{
       .name = "clearance.friction",
       .says = "The friction force over the normal force, as a function of the sliding speed v.",
-      .keys = {choice("law", cited(friction_laws())).otherwise(c.friction_law.c_str()).says("The law of friction."),
-               number("coefficient")
-                   .at_least(0.0, "a number of zero or more")
-                   .at_most(kLargestFrictionCoefficient, "a number from 0 to 100")
-                   .otherwise(p.coefficient)
-                   .says("Kinetic coefficient of friction mu; zero is no friction."),
-               quantity("static_speed", kContactSpeedRange)
-                   .at_least(0.0, "a speed of zero or more")
-                   .otherwise(p.static_speed, "mm/s")
-                   .says("Sliding speed v_s below which modified Coulomb friction is zero (Ambrosio 2002)."),
-               quantity("dynamic_speed", kContactSpeedRange)
-                   .otherwise(p.dynamic_speed, "mm/s")
-                   .says("Sliding speed v_d from which friction is fully developed; more than static_speed."),
-               number("static_coefficient")
-                   .at_most(kLargestFrictionCoefficient, "a number of at most 100")
-                   .usually("that of coefficient")
-                   .says("Static coefficient of friction mu_s, at least the kinetic one; " + peaked + "."),
-               quantity("stribeck_speed", kContactSpeedRange)
-                   .above(0.0, "a speed above zero")
-                   .otherwise(p.stribeck_speed, "mm/s")
-                   .says("Stribeck speed v_st, over which friction falls from its static peak to the kinetic value; " +
-                         peaked + "."),
-               quantity("bristle_stiffness", kBristleStiffnessRange)
-                   .above(0.0, "a stiffness per normal force above zero")
-                   .otherwise(p.bristle_stiffness)
-                   .says("Stiffness s0 of the bristles per normal force, " + lugre + "."),
-               quantity("bristle_damping", kBristleDampingRange)
-                   .at_least(0.0, "a damping of zero or more")
-                   .otherwise(p.bristle_damping)
-                   .says("Damping s1 of the bristles per normal force, " + lugre + "."),
-               quantity("viscosity", kBristleDampingRange)
-                   .at_least(0.0, "a viscosity of zero or more")
-                   .otherwise(p.viscosity)
-                   .says("Viscous friction s2 per normal force, " + lugre + ".")}};
+      .keys = {
+          choice("law", cited(friction_laws())).otherwise(c.friction_law.c_str()).says("The law of friction."),
+          number("coefficient")
+              .at_least(0.0, "a number of zero or more")
+              .at_most(kLargestFrictionCoefficient, "a number from 0 to 100")
+              .otherwise(p.coefficient)
+              .says("Kinetic coefficient of friction mu; zero is no friction."),
+          quantity("static_speed", kContactSpeedRange)
+              .at_least(0.0, "a speed of zero or more")
+              .otherwise(p.static_speed, "mm/s")
+              .says("Sliding speed v_s below which modified Coulomb friction is zero (Ambrosio 2002)."),
+          quantity("dynamic_speed", kContactSpeedRange)
+              .otherwise(p.dynamic_speed, "mm/s")
+              .says("Sliding speed v_d from which friction is fully developed; more than static_speed. The damping of "
+                    "LuGre's "
+                    "bristles dies out over it."),
+          number("static_coefficient")
+              .at_most(kLargestFrictionCoefficient, "a number of at most 100")
+              .usually("that of coefficient")
+              .says("Static coefficient of friction mu_s, at least the kinetic one; " + peaked + "."),
+          quantity("stribeck_speed", kContactSpeedRange)
+              .above(0.0, "a speed above zero")
+              .otherwise(p.stribeck_speed, "mm/s")
+              .says("Stribeck speed v_st, over which friction falls from its static peak to the kinetic value; " +
+                    peaked + "."),
+          quantity("bristle_stiffness", kBristleStiffnessRange)
+              .above(0.0, "a stiffness per normal force above zero")
+              .otherwise(p.bristle_stiffness)
+              .says("Stiffness s0 of the bristles per normal force, " + lugre + "."),
+          quantity("bristle_damping", kBristleDampingRange)
+              .at_least(0.0, "a damping of zero or more")
+              .otherwise(p.bristle_damping)
+              .says("Damping s1 of the bristles per normal force, which dies out beyond dynamic_speed, " + lugre + "."),
+          quantity("viscosity", kBristleDampingRange)
+              .at_least(0.0, "a viscosity of zero or more")
+              .otherwise(p.viscosity)
+              .says("Viscous friction s2 per normal force, " + lugre + ".")}};
   return table_of_keys;
 }
 

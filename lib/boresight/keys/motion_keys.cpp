@@ -82,8 +82,9 @@ const KeyTable& initial_keys() {
                    .sometimes("left out, free joints start at rest")
                    .says("Starting rates of the joints that no drive moves."),
                choice("journals",
-                      std::vector<KeyChoice>{{"rest", "on their sleeves, in balance under the loads of t = 0"},
-                                             {"centred", "in the middle of their sleeves, from where they fall"}})
+                      std::vector<KeyChoice>{
+                          {"rest", "on their sleeves, in balance under the loads of t = 0, friction left out"},
+                          {"centred", "in the middle of their sleeves, from where they fall"}})
                    .otherwise("rest")
                    .says("Where journals start; at the rates of the ideal motion either way.")}};
   return table_of_keys;

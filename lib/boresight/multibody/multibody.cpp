@@ -66,7 +66,9 @@ class Multibody final : public Rung {
       result = follow_by_default(
           options, own,
           [&](const RunOptions& by_steps, double step) {
-            RunResult stepped = follow_in_fixed_steps({mechanism, parameters, by_steps, ideal, *commanded}, step);
+            RunResult stepped = naming_springs(mechanism, parameters, ideal, options.step, [&] {
+              return follow_in_fixed_steps({mechanism, parameters, by_steps, ideal, *commanded}, step);
+            });
             if (std::string missed = errors_not_followed(mechanism, of_errors, parameters, step); !missed.empty())
               stepped.warnings.push_back(std::move(missed));
             return stepped;

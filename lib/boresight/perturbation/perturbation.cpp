@@ -84,7 +84,9 @@ class Perturbation final : public SceneRung {
     return follow_by_default(
         options, own,
         [&](const RunOptions& by_steps, double step) {
-          return integrate(tables, prepared, standing, parameters, by_steps, step, largest);
+          return naming_springs(mechanism(), parameters, prepared.ideal(), options.step, [&] {
+            return integrate(tables, prepared, standing, parameters, by_steps, step, largest);
+          });
         },
         [&](const RunOptions& located) {
           check_options(located, name(), mechanism(), parameters);

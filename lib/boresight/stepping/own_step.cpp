@@ -23,9 +23,14 @@ double own_step(const Mechanism& mechanism, const Parameters& parameters, const 
   // contact reaches.
   for (const ContactFrequency& c : analyse_contacts(mechanism, parameters, ideal))
     if (c.largest_stable_step > 0.0) step = std::min(step, kShareOfStableStep * c.largest_stable_step);
-  if (const double rate = fastest_own_rate(mechanism, parameters, ideal); rate > 0.0)
-    step = std::min(step, kShareOfStableStep * classical_rk4().real_limit / rate);
+  if (const double stable = largest_step_of_springs(mechanism, parameters, ideal); stable > 0.0)
+    step = std::min(step, kShareOfStableStep * stable);
   return step;
+}
+
+double largest_step_of_springs(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
+  const double rate = fastest_own_rate(mechanism, parameters, ideal);
+  return rate > 0.0 ? classical_rk4().real_limit / rate : 0.0;
 }
 
 }  // namespace boresight

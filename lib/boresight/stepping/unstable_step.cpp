@@ -28,6 +28,16 @@ std::string message(const std::string& sign, double t, double h) {
   return text;
 }
 
+std::string message_of_springs(double t, double of_springs, double h) {
+  char text[320];
+  std::snprintf(
+      text, sizeof text,
+      "step too large: with h = %.4g s the motion blows up before t = %.6g s; springs and dampers alone leave "
+      "RK4 stable up to a step of %.3g s",
+      h, t, of_springs);
+  return text;
+}
+
 }  // namespace
 
 UnstableStep::UnstableStep(const Mechanism& mechanism, const StiffestContact& contact, double when, double h)
@@ -37,6 +47,9 @@ UnstableStep::UnstableStep(const Mechanism& mechanism, const StiffestContact& co
 
 UnstableStep::UnstableStep(const std::string& sign, double when, double h)
     : ComputationError(message(sign, when, h)), t(when) {}
+
+UnstableStep::UnstableStep(const UnstableStep& blown_up, double of_springs, double h)
+    : ComputationError(message_of_springs(blown_up.t, of_springs, h)), t(blown_up.t), largest_step(of_springs) {}
 
 double step_on_grid(double step, double spacing) {
   return spacing > 0.0 ? spacing / std::ceil(spacing / step - 1e-9) : step;

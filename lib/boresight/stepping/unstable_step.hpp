@@ -15,6 +15,8 @@ class UnstableStep : public ComputationError {
   UnstableStep(const Mechanism& mechanism, const StiffestContact& contact, double t, double h);
   // The motion blew up with step h: seen at t, as `sign` says ("the state is not finite").
   UnstableStep(const std::string& sign, double t, double h);
+  // The same, where springs and dampers alone ask for a step of at most `of_springs` [s].
+  UnstableStep(const UnstableStep& blown_up, double of_springs, double h);
   double t = 0.0;             // [s]
   double largest_step = 0.0;  // that would have been stable there [s]; 0: not known
 };

@@ -102,6 +102,26 @@ TEST(MuJoCo, LoadsWhateverNamesBodiesAndJointsHave) {
   for (int row = 0; row < model.data->ne; ++row) EXPECT_NEAR(model.data->efc_pos[row], 0.0, 1e-9);
 }
 
+TEST(MuJoCo, WhatAsksForAnotherPoseThanTheDrawnOneIsNamed) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / ("poses-" + std::to_string(::getpid()) + ".xml");
+  const auto left_out = [&](const std::string& ref, const std::string& relpose) {
+    std::ofstream(file)
+        << "<mujoco><compiler angle='radian'/><worldbody><body name='a'><joint name='j' axis='0 1 0' ref='" << ref
+        << "'/><inertial pos='0 0 1' mass='1' diaginertia='1 1 1'/></body>"
+           "<body name='b' pos='0 0 2'><freejoint/><inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/></body>"
+           "</worldbody><equality><weld name='tie' body1='a' body2='b' "
+        << relpose << "/></equality></mujoco>";
+    std::string all;
+    for (const Remark& one : read_mjcf(file.string()).left_out) all += one.text + '\n';
+    return all;
+  };
+  EXPECT_EQ(left_out("0", ""), "");
+  EXPECT_THAT(left_out("0.5", ""), testing::HasSubstr("j: its ref of 0.5 rad"));
+  EXPECT_THAT(left_out("0", "relpose='0 0 3 1 0 0 0'"), testing::HasSubstr("tie: the pose that it asks for"));
+  std::filesystem::remove(file);
+}
+
 // Loops that MuJoCo closes by equalities are closed at home.
 TEST(MuJoCo, FindsTheLoopsOfTheExamplesClosed) {
   for (const char* name : {"3-rrcpr/3-rrcpr.toml", "hexapod/hexapod.toml", "bricard/bricard.toml",

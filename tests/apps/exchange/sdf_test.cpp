@@ -118,6 +118,25 @@ TEST(Sdf, ModelsInModelsKeepTheirNames) {
   expect_near(m.bodies[0].center_of_mass, Vec3(1.0, 0.0, 2.0), 1e-12);
 }
 
+// Links stand before the models that hold what their poses are given in.
+TEST(Sdf, PosesHangInWhatModelsInModelsHold) {
+  const MechanismDescription m = imported(read_sdf(
+      "<sdf version='1.9'><model name='m'>"
+      "<link name='b'><pose relative_to='jb'>0 0 1 0 0 0</pose>" +
+          inertial(1.0) + "</link><link name='c'><pose relative_to='in::tip'>0 0 0.5 0 0 0</pose>" + inertial(1.0) +
+          "</link><model name='in'><pose>1 0 0 0 0 0</pose><link name='head'/>"
+          "<frame name='tip' attached_to='head'><pose>0 2 0 0 0 0</pose></frame></model>"
+          "<joint name='jb' type='revolute'><parent>world</parent><child>in::head</child>"
+          "<axis><xyz>0 0 1</xyz></axis></joint>"
+          "<joint name='j2' type='revolute'><parent>in::head</parent><child>b</child>"
+          "<axis><xyz>0 0 1</xyz></axis></joint>"
+          "<joint name='j3' type='revolute'><parent>in::head</parent><child>c</child>"
+          "<axis><xyz>0 0 1</xyz></axis></joint></model></sdf>",
+      "m.sdf"));
+  expect_near(m.bodies[index_of(m.bodies, "b")].center_of_mass, Vec3(1.0, 0.0, 1.0), 1e-12);
+  expect_near(m.bodies[index_of(m.bodies, "c")].center_of_mass, Vec3(1.0, 2.0, 0.5), 1e-12);
+}
+
 TEST(Sdf, LoopsStayLoops) {
   std::string text = "<sdf version='1.9'><model name='four-bar'>";
   const char* const names[] = {"crank", "coupler", "rocker"};
