@@ -54,7 +54,7 @@ joint = "az"
 journal = "table"
 )" + journal_);
   ASSERT_EQ(call({"check", "turntable.toml", "--out", "out"}).status, 0);
-const nlohmann::json contact = json("out/summary.json")["contacts"][0];
+const nlohmann::json contact = json("out/summary.json")["contacts"]["az"];
 const double load = 100.0 * 9.81, stiffness = contact["axial_stiffness"];
 EXPECT_NEAR(contact["typical_load"].get<double>(), load, 1e-6 * load);
 EXPECT_NEAR(contact["typical_penetration"].get<double>(), load / stiffness, 1e-6 * load / stiffness);
