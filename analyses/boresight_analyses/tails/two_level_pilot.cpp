@@ -34,6 +34,26 @@ Scatter scatter(const Pair& pair, double limit, double control) {
   return {std::sqrt(corrected.variance() + unseen), cheap.sd()};
 }
 
+// Weights of the points beyond a limit: their mean over all, and of how many equal ones they are worth (Kish 1965).
+struct Beyond {
+  double share = 0.0, effective = 0.0;
+};
+Beyond beyond(const WeightedDraws& drawn, const std::vector<double>& values, double limit) {
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double w = is_beyond(values[k], limit) ? drawn.weights[k] : 0.0;
+    sum += w;
+    squares += w * w;
+  }
+  return {sum / static_cast<double>(values.size()), squares > 0.0 ? sum * sum / squares : 0.0};
+}
+
+// Ten points tell a mean to a third, which is as far as a forecast may be off; so may what was seen be from what the search found.
+constexpr double kFewestEffective = 10.0, kFactor = 3.0;
+bool tells(const Beyond& seen, double found) {
+  return seen.effective >= kFewestEffective && seen.share <= kFactor * found && found <= kFactor * seen.share;
+}
+
 }  // namespace
 
 TwoLevelPlan two_level_pilot(const BatchModel& cheap, const BatchModel& exact, int dimensions, double limit,
@@ -71,11 +91,12 @@ TwoLevelPlan two_level_pilot(const BatchModel& cheap, const BatchModel& exact, i
   }
 
   const Pair pair = run(kPilotSet);
-  RunningMoments share;
-  for (std::size_t k = 0; k < pair.exact.size(); ++k)
-    share.add(is_beyond(pair.exact[k], limit) ? pair.drawn.weights[k] : 0.0);
-  plan.probability = share.mean();
-  plan.informed = share.mean() > 0.0;
+  const Beyond seen = beyond(pair.drawn, pair.exact, limit);
+  plan.probability = seen.share;
+  plan.informed = seen.share > 0.0;
+  plan.forecasts =
+      seen.effective >= kFewestEffective &&
+      tells(on_exact ? seen : beyond(pair.drawn, pair.cheap, plan.cheap_limit), plan.proposal.subset.probability);
   if (!plan.informed) {
     plan.standard_error = plan.exact_standard_error = plan.plain_standard_error = std::nan("");
     plan.exact_points = std::max<std::int64_t>(2, static_cast<std::int64_t>(budget / costs.exact));
@@ -101,6 +122,7 @@ TwoLevelPlan two_level_pilot(const BatchModel& cheap, const BatchModel& exact, i
   };
   plan.exact_points = points(s.corrected, plan.control > 0.0 ? both : costs.exact);
   plan.cheap_points = plan.control > 0.0 ? points(plan.control * s.cheap, costs.cheap) : 0;
+  if (!plan.forecasts) plan.standard_error = plan.exact_standard_error = plan.plain_standard_error = std::nan("");
   return plan;
 }
 

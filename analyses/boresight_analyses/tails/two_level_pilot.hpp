@@ -22,6 +22,9 @@ struct TwoLevelPlan {
   // Whether the pilot saw the exact model exceed the limit. Where it did not, it knows neither how the models agree nor
   // what to expect: the cheap one is then not leaned on, and the standard errors are not a number.
   bool informed = false;
+  // Whether it saw enough to forecast by. Where a few of its points carry all of its weight, or it found much more or less of the tail than the search
+  // did, the rest is what it has not seen: the standard errors are not a number then either.
+  bool forecasts = false;
   double probability = 0.0;           // from the pilot alone, rough
   double standard_error = 0.0;        // to expect of the plan
   double exact_standard_error = 0.0;  // of as much CPU spent on the exact model alone, same proposal

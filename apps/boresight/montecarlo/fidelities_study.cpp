@@ -105,6 +105,7 @@ int run_fidelities(const SeveralRungs& s) {
   if (o.plan.models.size() == 1)
     warnings.push_back("the cheaper rungs do not pay: this is plain Monte Carlo on " + top +
                        ", the pilot was spent in vain");
+  if (const std::string more = overspent(o.spent, asked.budget); !more.empty()) warnings.push_back(more);
   bool met = true;
   double shown = 0.0;  // of all cases, at least
   Json json = several_rungs_summary(s, top, warnings, o.earlier);

@@ -1,7 +1,10 @@
 #include "montecarlo/several_rungs.hpp"
 
+#include <fmt/format.h>
+
 #include "report_parts/report_parts.hpp"
 #include "results/start_warnings.hpp"
+#include "terminal/readable.hpp"
 
 namespace boresight::app {
 
@@ -16,6 +19,16 @@ std::vector<std::string> several_rungs_warnings(const SeveralRungs& s) {
   if (plan.confidence_of_requirement)
     warnings.push_back("the study's own confidence is not used: what tail states has the requirement's");
   return warnings;
+}
+
+std::string overspent(double spent, double budget) {
+  constexpr double kMuchMore = 2.5;  // counted costs are true to about a factor of two
+  if (!(spent > kMuchMore * budget)) return "";
+  return fmt::format(
+      "{} of CPU were spent, {:.2g} times the budget: it is divided by what samples are counted to cost, so that a "
+      "study "
+      "gives the same everywhere, and here they cost more",
+      readable(spent, "s"), spent / budget);
 }
 
 Json several_rungs_summary(const SeveralRungs& s, const std::string& rung, const std::vector<std::string>& warnings,

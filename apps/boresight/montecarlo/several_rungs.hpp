@@ -23,6 +23,8 @@ int run_tail(const SeveralRungs& study);
 RungChoice named_rung(const std::string& rung);
 // What a reader should know of how motions start, and of what the budget decides.
 std::vector<std::string> several_rungs_warnings(const SeveralRungs& study);
+// Where so much CPU [s] was spent that a reader who set the budget should know why; "" elsewhere.
+std::string overspent(double spent, double budget);
 // What every summary of a Monte Carlo study has; the report's head and end.
 Json several_rungs_summary(const SeveralRungs& study, const std::string& rung, const std::vector<std::string>& warnings,
                            const SampleStore::Cost& earlier);

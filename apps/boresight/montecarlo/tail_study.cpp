@@ -43,6 +43,10 @@ std::string forecast_sentence(const TwoLevelPlan& pilot, const TailQuestion& ask
   if (!pilot.informed)
     return fmt::format("no point of the pilot exceeds the limit on {}: no forecast, the budget goes to {} points there",
                        asked.exact, pilot.exact_points);
+  if (!pilot.forecasts)
+    return fmt::format("the pilot is too small to forecast what comes of {} points on {}{}", pilot.exact_points,
+                       asked.exact,
+                       pilot.cheap_points > 0 ? fmt::format(" and {} on {}", pilot.cheap_points, asked.cheap) : "");
   if (pilot.on_exact)
     return fmt::format(
         "about {:.2g} exceed; forecast: standard error {:.2g} with {} points on {} ({:.2g} by plain Monte Carlo for "
@@ -106,6 +110,8 @@ int run_tail(const SeveralRungs& s) {
                     "takes about {:.2g} "
                     "of them: a larger budget",
                     estimate.exact_evaluations, asked.exact, p.high, most, enough));
+
+  if (const std::string more = overspent(spent, asked.budget); !more.empty()) warnings.push_back(more);
 
   Json json = several_rungs_summary(s, asked.exact, warnings, found.earlier);
   json["samples"] = estimate.exact_evaluations;
@@ -171,7 +177,7 @@ int run_tail(const SeveralRungs& s) {
   document.facts = {{"exceed the limit", fmt::format("{:.3g}", p.value), "",
                      fmt::format("at most {:.3g} with {:g} % confidence", p.high, 100.0 * requirement.confidence)},
                     {"standard error", fmt::format("{:.2g}", estimate.standard_error), "",
-                     pilot.informed ? fmt::format("forecast {:.2g}", pilot.standard_error) : std::string()},
+                     pilot.forecasts ? fmt::format("forecast {:.2g}", pilot.standard_error) : std::string()},
                     {"effective points beyond", readable_number(estimate.effective_exceedances), "", ""},
                     {"CPU", readable(before + spent, "s"), "", "search and pilot included"}};
   report::Table table{.title = "What the same CPU would have given",
@@ -189,6 +195,7 @@ int run_tail(const SeveralRungs& s) {
     table.caption = "No point of the pilot exceeded the limit, so there is no forecast.";
   else
     table.caption += " The cheap rung found the tail; measuring it on the exact rung alone is the better buy here.";
+  if (pilot.informed && !pilot.forecasts) table.caption = "The pilot was too small to forecast them.";
   document.sections.insert(
       document.sections.begin(),
       report::Section{

@@ -239,10 +239,29 @@ TEST(TwoLevelPilot, GivesTheExactModelPointsHoweverWellTheTwoAgree) {
   EXPECT_GT(same.exact_points, 50);
 }
 
+// Of one tail in two dimensions every pilot of 200 points knows as much as the estimate confirms; of a tail whose points it hardly reaches, in
+// which a few carry all of the weight, none says what will come.
+TEST(TwoLevelPilot, ForecastsWhereItHasSeenEnough) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    ProposalOptions options;
+    options.subset.seed = seed;
+    const TwoLevelPlan plan = two_level_pilot(kExact, kExact, 2, 3.0, 200, {0.01, 1.0}, 300.0, options);
+    ASSERT_TRUE(plan.forecasts) << seed;
+    EXPECT_LT(std::abs(std::log(plan.probability / phi(-3.0))), std::log(2.0)) << seed;
+    const TwoLevelPlan few = two_level_pilot(kExact, kExact, 2, 3.0, 10, {0.01, 1.0}, 300.0, options);
+    if (few.forecasts) {
+      EXPECT_LT(std::abs(std::log(few.probability / phi(-3.0))), std::log(3.0) + 0.7) << seed;
+    } else {
+      EXPECT_TRUE(std::isnan(few.standard_error)) << seed;
+    }
+  }
+}
+
 TEST(TwoLevelPilot, ThatSawNoExcessForecastsNothing) {
   const BatchModel never = pointwise([](const Point& u) { return std::min(u[0], 0.0); });
   const TwoLevelPlan plan = two_level_pilot(kExact, never, 2, 3.0, 20, {0.01, 1.0}, 300.0, {});
   EXPECT_FALSE(plan.informed);
+  EXPECT_FALSE(plan.forecasts);
   EXPECT_EQ(plan.control, 0.0);
   EXPECT_EQ(plan.exact_points, 300);
   EXPECT_TRUE(std::isnan(plan.standard_error));
