@@ -98,10 +98,13 @@ std::optional<AxesComparison> compare_axes(const Mechanism& mechanism, std::stri
       "error {} and {}",
       angle(result.parallel_boresight), angle(result.free_boresight), readable(result.parallel_position, "m"),
       readable(result.free_position, "m"));
-  result.sentence = result.free
-                        ? "Journals tilt in their sleeves here. What parallel axes would have hidden: " + figures + "."
-                        : "Journal and sleeve axes are assumed parallel. What that hides: " + figures +
-                              ". Set axes = \"free\" to have the tilt computed.";
+  result.tells = angle(result.parallel_boresight) != angle(result.free_boresight) ||
+                 readable(result.parallel_position, "m") != readable(result.free_position, "m");
+  result.sentence =
+      !result.tells ? "Whether journals tilt in their sleeves makes no difference at rest: " + figures + "."
+      : result.free ? "Journals tilt in their sleeves here. What parallel axes would have hidden: " + figures + "."
+                    : "Journal and sleeve axes are assumed parallel. What that hides: " + figures +
+                          ". Set axes = \"free\" to have the tilt computed.";
   return result;
 }
 

@@ -12,6 +12,7 @@ struct AxesComparison {
   bool free = false;                                      // of the scene itself: at least one journal tilts
   double parallel_boresight = 0.0, free_boresight = 0.0;  // largest boresight error at rest [rad]
   double parallel_position = 0.0, free_position = 0.0;    // largest position error at rest [m]
+  bool tells = false;                                     // the two differ, as they are printed
   std::string sentence;
 };
 

@@ -86,7 +86,7 @@ void print(const Command& command, const Mechanism& mechanism, const RungChoice&
            readable(other.result.index.position_error.max, "m"), readable(other.result.index.position_error.rms, "m"),
            readable(other.result.index.boresight_error.max, "rad"), readable(other.result.cost.cpu_seconds, "s"));
   }
-  if (axes && !axes->free && axes->free_boresight > 1e-6) tell("  note: {}\n", axes->sentence);
+  if (axes && !axes->free && axes->tells && axes->free_boresight > 1e-6) tell("  note: {}\n", axes->sentence);
   tell_warnings(result.warnings, command, mechanism);
   tell("  report: {}\n", (out.path() / "report.html").string());
 }
