@@ -29,7 +29,7 @@ damping = "2000 N s/m"
 
 // All of the load points along the axis: its end face carries it, and the journal's law, softer forty times, nothing.
 TEST_F(CheckProgram, FindsTheDepthOfALoadAlongTheAxisInTheEndFace) {
-  write("turntable.toml", R"(format = 1
+  write("turntable.toml", R"toml(format = 1
 name = "turntable"
 gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
 [[body]]
@@ -52,17 +52,17 @@ drives = { az = "0.5*sin(2*pi*t)"
 [[clearance]]
 joint = "az"
 journal = "table"
-)" + journal_);
+)toml" + journal_);
   ASSERT_EQ(call({"check", "turntable.toml", "--out", "out"}).status, 0);
-const nlohmann::json contact = json("out/summary.json")["contacts"]["az"];
-const double load = 100.0 * 9.81, stiffness = contact["axial_stiffness"];
-EXPECT_NEAR(contact["typical_load"].get<double>(), load, 1e-6 * load);
-EXPECT_NEAR(contact["typical_penetration"].get<double>(), load / stiffness, 1e-6 * load / stiffness);
+  const nlohmann::json contact = json("out/summary.json")["contacts"]["az"];
+  const double load = 100.0 * 9.81, stiffness = contact["axial_stiffness"];
+  EXPECT_NEAR(contact["typical_load"].get<double>(), load, 1e-6 * load);
+  EXPECT_NEAR(contact["typical_penetration"].get<double>(), load / stiffness, 1e-6 * load / stiffness);
 }
 
 // A spring of 1e8 N/m on 0.1 kg: 31,600 rad/s, of which RK4 follows steps of 88 us.
 TEST_F(CheckProgram, NamesSpringsThatAskForShorterStepsThanContactsDo) {
-  write("stiff.toml", R"(format = 1
+  write("stiff.toml", R"toml(format = 1
 name = "stiff"
 [[body]]
 name = "arm"
@@ -100,18 +100,18 @@ drives = { h = "0.3*sin(20*t)"
 [[clearance]]
 joint = "h"
 journal = "arm"
-)" + journal_);
+)toml" + journal_);
   const Ended check = call({"check", "stiff.toml", "--out", "out"});
-EXPECT_EQ(check.status, 0) << check.err;
-EXPECT_THAT(check.out, HasSubstr("springs and dampers vibrate faster than any contact"));
-for (const char* rung : {"multibody", "perturbation"}) {
-  const Ended run =
-      call({"run", "stiff.toml", "--rung", rung, "--step", "0.12 ms", "--step-error", "off", "--out", rung});
-  EXPECT_EQ(run.status, 3) << rung;
-  EXPECT_TRUE(is_one_line(run.err)) << run.err;
-  EXPECT_THAT(run.err, AllOf(HasSubstr("springs and dampers alone leave RK4 stable up to a step of "),
-                             Not(HasSubstr("not finite"))));
-}
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_THAT(check.out, HasSubstr("springs and dampers vibrate faster than any contact"));
+  for (const char* rung : {"multibody", "perturbation"}) {
+    const Ended run =
+        call({"run", "stiff.toml", "--rung", rung, "--step", "0.12 ms", "--step-error", "off", "--out", rung});
+    EXPECT_EQ(run.status, 3) << rung;
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_THAT(run.err, AllOf(HasSubstr("springs and dampers alone leave RK4 stable up to a step of "),
+                               Not(HasSubstr("not finite"))));
+  }
 }
 
 }  // namespace check_program_test
