@@ -86,8 +86,9 @@ void print_errors(const CheckResult& result) {
 
 void print(const Mechanism& mechanism, const CheckResult& result, const OutputDirectory& out) {
   const KinematicReport& k = result.kinematics;
-  tell("{}: {} bodies, {} joints, mobility {}, {} drives, {} redundant rows\n", mechanism.name(), k.bodies, k.joints,
-       k.mobility, k.drives, k.redundant_rows);
+  tell("{}: {}, {}, mobility {}, {}, {}\n", mechanism.name(), how_many(k.bodies, "body", "bodies"),
+       how_many(k.joints, "joint"), k.mobility, how_many(k.drives, "drive"),
+       how_many(k.redundant_rows, "redundant row"));
   for (const ContactFrequency& c : result.contacts) {
     if (c.largest_stable_step == 0.0) continue;  // its play cannot move: a problem below
     tell(
