@@ -47,8 +47,7 @@ axis = [0, 0, 1]
 driven = true
 [motion]
 duration = "1 s"
-drives = { az = "0.5*sin(2*pi*t)"
-}
+drives = { az = "0.5*sin(2*pi*t)" }
 [[clearance]]
 joint = "az"
 journal = "table"
@@ -64,6 +63,7 @@ journal = "table"
 TEST_F(CheckProgram, NamesSpringsThatAskForShorterStepsThanContactsDo) {
   write("stiff.toml", R"toml(format = 1
 name = "stiff"
+gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
 [[body]]
 name = "arm"
 mass = "2 kg"
@@ -95,8 +95,7 @@ stiffness = "1e8 N/m"
 free_length = "0.1 m"
 [motion]
 duration = "0.05 s"
-drives = { h = "0.3*sin(20*t)"
-}
+drives = { h = "0.3*sin(20*t)" }
 [[clearance]]
 joint = "h"
 journal = "arm"
