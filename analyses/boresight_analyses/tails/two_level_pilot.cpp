@@ -48,8 +48,8 @@ Beyond beyond(const WeightedDraws& drawn, const std::vector<double>& values, dou
   return {sum / static_cast<double>(values.size()), squares > 0.0 ? sum * sum / squares : 0.0};
 }
 
-// Ten points tell a mean to a third, which is as far as a forecast may be off; so may what was seen be from what the search found.
-constexpr double kFewestEffective = 10.0, kFactor = 3.0;
+// Five points tell a mean to a half of itself, about; and what was seen may be three times what the search found, or a third of it.
+constexpr double kFewestEffective = 5.0, kFactor = 3.0;
 bool tells(const Beyond& seen, double found) {
   return seen.effective >= kFewestEffective && seen.share <= kFactor * found && found <= kFactor * seen.share;
 }

@@ -105,7 +105,6 @@ int run_fidelities(const SeveralRungs& s) {
   if (o.plan.models.size() == 1)
     warnings.push_back("the cheaper rungs do not pay: this is plain Monte Carlo on " + top +
                        ", the pilot was spent in vain");
-  if (const std::string more = overspent(o.spent, asked.budget); !more.empty()) warnings.push_back(more);
   bool met = true;
   double shown = 0.0;  // of all cases, at least
   Json json = several_rungs_summary(s, top, warnings, o.earlier);
@@ -203,6 +202,8 @@ int run_fidelities(const SeveralRungs& s) {
            asked.models[static_cast<std::size_t>(o.plan.models[k])], o.plan.samples[k],
            o.plan.correlation[static_cast<std::size_t>(o.plan.models[k])],
            readable(o.measured_cost[static_cast<std::size_t>(o.plan.models[k])], "s"));
+    // Not in the files, which are the same however often a study was interrupted.
+    if (const std::string more = overspent(o.spent, asked.budget); !more.empty()) warnings.push_back(more);
     tell_warnings(warnings, s.command, *s.question.mechanism);
     tell("  report: {}\n", (s.own.out().path() / "report.html").string());
   }

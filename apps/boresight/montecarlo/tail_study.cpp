@@ -111,8 +111,6 @@ int run_tail(const SeveralRungs& s) {
                     "of them: a larger budget",
                     estimate.exact_evaluations, asked.exact, p.high, most, enough));
 
-  if (const std::string more = overspent(spent, asked.budget); !more.empty()) warnings.push_back(more);
-
   Json json = several_rungs_summary(s, asked.exact, warnings, found.earlier);
   json["samples"] = estimate.exact_evaluations;
   json["failed"] = estimate.failed;
@@ -205,6 +203,8 @@ int run_tail(const SeveralRungs& s) {
   for (const std::string& store : stores_of_tail(asked)) s.own.run().forget(store);
   if (!s.command.quiet) {
     tell("  {}\n", sentence);
+    // Not in the files, which are the same however often a study was interrupted.
+    if (const std::string more = overspent(spent, asked.budget); !more.empty()) warnings.push_back(more);
     tell_warnings(warnings, s.command, *s.question.mechanism);
     tell("  report: {}\n", (s.own.out().path() / "report.html").string());
   }
