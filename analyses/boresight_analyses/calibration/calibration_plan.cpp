@@ -184,16 +184,7 @@ std::string also_fitted(const MechanismDescription& mechanism, const VariedPaths
 }
 
 // What is held out of the fit has to be read with offsets that the fit knows.
-void refuse_runs_held_out(const CalibrationPlan& plan, const CalibrationProblem& problem) {
-  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
-    const auto of_run = [&](const Window& w) { return w.run == static_cast<int>(r); };
-    if (std::any_of(problem.windows.begin(), problem.windows.end(), of_run) &&
-        std::none_of(problem.windows.begin(), problem.windows.end(),
-                     [&](const Window& w) { return of_run(w) && !w.held_out; }))
-      throw InputError(plan.hold_out_origin, "calibrate.hold_out", "all of " + problem.runs[r].name,
-                       "windows shorter than a run, as each run has offsets of its own (offsets_per_run), which "
-                       "readings of it that are fitted have to tell");
-  }
+void refuse_offsets_held_out(const CalibrationPlan& plan, const CalibrationProblem& problem) {
   for (const CalibrationProblem::Offset& offset : problem.offsets) {
     const CalibrationRun& run = problem.runs[static_cast<std::size_t>(offset.run)];
     const auto read = run.data.value.col(problem.column(offset.run, offset.channel)).array();
@@ -337,7 +328,7 @@ CalibrationProblem calibration_problem(
                        std::string("calibrate.noise.") + channel_names()[static_cast<std::size_t>(channel)].name,
                        "noise of a channel that no data have", "a channel that was measured");
   hold_out_windows(problem, plan.hold_out);
-  if (plan.offsets_per_run && plan.hold_out > 0.0) refuse_runs_held_out(plan, problem);
+  if (plan.offsets_per_run && plan.hold_out > 0.0) refuse_offsets_held_out(plan, problem);
   if (plan.hold_out > 0.0 && problem.windows.size() < 2)
     throw InputError(plan.hold_out_origin, "calibrate.hold_out", "one window",
                      "two at least, so that one is left to fit: a second run, or a window shorter than the run");

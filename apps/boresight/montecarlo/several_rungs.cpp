@@ -25,9 +25,8 @@ std::string overspent(double spent, double budget) {
   constexpr double kMuchMore = 2.5;  // counted costs are true to about a factor of two
   if (!(spent > kMuchMore * budget)) return "";
   return fmt::format(
-      "{} of CPU were spent, {:.2g} times the budget: it is divided by what samples are counted to cost, so that a "
-      "study "
-      "gives the same everywhere, and here they cost more",
+      "{} of CPU were spent, {:.2g} times the budget: it is divided by what samples are counted to cost, which makes "
+      "studies repeatable, and here they cost more",
       readable(spent, "s"), spent / budget);
 }
 

@@ -192,9 +192,9 @@ const KeyTable& friction_keys() {
               .says("Sliding speed v_s below which modified Coulomb friction is zero (Ambrosio 2002)."),
           quantity("dynamic_speed", kContactSpeedRange)
               .otherwise(p.dynamic_speed, "mm/s")
-              .says("Sliding speed v_d from which friction is fully developed; more than static_speed. The damping of "
-                    "LuGre's "
-                    "bristles dies out over it."),
+              .says("Sliding speed v_d from which friction is fully developed, and beyond which LuGre's bristles are "
+                    "not damped; "
+                    "more than static_speed."),
           number("static_coefficient")
               .at_most(kLargestFrictionCoefficient, "a number of at most 100")
               .usually("that of coefficient")

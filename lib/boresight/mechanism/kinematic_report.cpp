@@ -22,7 +22,7 @@ namespace {
 // and so many at most.
 constexpr int kKnotsBetweenPoses = 8, kMostPoses = 2001;
 
-// Of so many poses those that singular values are found at in some seconds: their time grows by the cube of their number.
+// Of so many poses those whose singular values are found in seconds, and 21 at least: the time of one grows by the cube of their number.
 int affordable(int poses, Eigen::Index values) {
   constexpr double kMultiplications = 1e9;
   constexpr int kFewest = 21;

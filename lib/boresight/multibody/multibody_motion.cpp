@@ -14,10 +14,11 @@ constexpr double kEnergyLost = 0.01;
 void warn(RunResult& result) {
   if (result.energy_error > kEnergyLost) {
     char text[200];
-    std::snprintf(text, sizeof text,
-                  "the steps make or lose up to %.2g %% of the largest energy of this motion; a shorter --step, or an "
-                  "--integrator with error control, keeps it",
-                  100.0 * result.energy_error);
+    std::snprintf(
+        text, sizeof text,
+        "the steps make or lose up to %.2g %% of the largest energy of this motion; a shorter --step, or a smaller "
+        "--tolerance of an --integrator with error control, keeps it",
+        100.0 * result.energy_error);
     result.warnings.push_back(text);
   }
   for (const ContactSummary& c : result.contact) {

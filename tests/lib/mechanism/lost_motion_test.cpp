@@ -72,6 +72,44 @@ TEST(LostMotions, AreNoneOfALoopThatComesNearOneOnly) {
   EXPECT_TRUE(ideal_motion(*paper, paper->parameters()).lost().empty());
 }
 
+// The locks of a linkage a thousandth as large are weaker everywhere than those of the large one are near its singular pose.
+TEST(LostMotions, AreNotHiddenByAPartThatIsHeldWeaklyEverywhere) {
+  MechanismDescription m = scenes::four_bar(kParallelogram, true, "2*pi*t");
+  const auto large = scenes::build(m);
+  const std::size_t alone = ideal_motion(*large, large->parameters()).lost().size();
+  ASSERT_GT(alone, 0u);
+  MechanismDescription small =
+      scenes::four_bar({{0, 0, 0}, {0, 0, 1e-3}, {2.2e-3, 0, 1.3e-3}, {2e-3, 0, 0}}, true, "0.1*t");
+  const int bodies = static_cast<int>(m.bodies.size()), joints = static_cast<int>(m.joints.size());
+  for (BodyDescription& body : small.bodies) {
+    body.name += " small";
+    body.boresight.reset();
+    m.bodies.push_back(body);
+  }
+  for (JointDescription joint : small.joints) {
+    joint.name += " small";
+    if (joint.first != kGround) joint.first += bodies;
+    if (joint.second != kGround) joint.second += bodies;
+    m.joints.push_back(joint);
+  }
+  m.motion.drives[joints] = small.motion.drives.at(0);
+  const auto mechanism = scenes::build(m);
+  EXPECT_EQ(ideal_motion(*mechanism, mechanism->parameters()).lost().size(), alone);
+}
+
+TEST(LostMotions, AreOneWhereTheDriveStaysInOne) {
+  const auto mechanism = scenes::build(scenes::four_bar(kParallelogram, true, "pi/2+0*t"));
+  const IdealMotion motion = ideal_motion(*mechanism, mechanism->parameters());
+  EXPECT_EQ(motion.lost().size(), 1u);
+}
+
+TEST(LostMotions, AreSaidOfTheDrawnMotionBesideWhatIsNotKnownOfTheBuiltOne) {
+  const auto mechanism = scenes::build(scenes::four_bar(kParallelogram, true, "2*pi*t"));
+  const std::string doubt = doubt_of(ideal_motion(*mechanism, mechanism->parameters()), 1e-3);
+  EXPECT_NE(doubt.find("known to 1.0e-03"), std::string::npos) << doubt;
+  EXPECT_NE(doubt.find("passes a singular pose"), std::string::npos) << doubt;
+}
+
 TEST(AFreeMotion, IsLookedAtForSingularPosesToo) {
   MechanismDescription m = scenes::four_bar(kParallelogram, true, "t");
   m.joints[0].driven = false;
