@@ -124,16 +124,26 @@ void add_law_notes(const Mechanism& mechanism, CheckResult& result) {
   }
 }
 
+// The largest step of RK4 that is stable for all contacts, springs and dampers; infinite where nothing vibrates.
+struct StableStep {
+  double seconds = std::numeric_limits<double>::infinity();
+  std::string joint = {};  // whose contact sets it; "": springs and dampers do
+};
+StableStep smallest_stable_step(const CheckResult& result) {
+  StableStep stable;
+  if (result.step_of_springs > 0.0) stable.seconds = result.step_of_springs;
+  for (const ContactFrequency& c : result.contacts)  // a play that cannot move has no step
+    if (c.largest_stable_step > 0.0 && c.largest_stable_step <= stable.seconds)
+      stable = {c.largest_stable_step, c.joint};
+  return stable;
+}
+
 // Springs and dampers that vibrate faster than any contact: the table of contacts then says too much of RK4's step.
-void add_spring_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckResult& result) {
-  if (mechanism.description().springs.empty()) return;
-  const double stable = largest_step_of_springs(mechanism, mechanism.parameters(), ideal);
-  for (const ContactFrequency& contact : result.contacts)
-    if (contact.largest_stable_step > 0.0 && contact.largest_stable_step <= stable) return;
-  if (stable > 0.0)
+void add_spring_note(CheckResult& result) {
+  if (const StableStep stable = smallest_stable_step(result); stable.joint.empty() && std::isfinite(stable.seconds))
     result.notes.push_back(fmt::format(
         "springs and dampers vibrate faster than any contact: with them the largest stable step of RK4 is about {}",
-        readable(stable, "s")));
+        readable(stable.seconds, "s")));
 }
 
 // Plays that cannot move, or only together.
@@ -189,11 +199,8 @@ void add_start_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckR
 // A motion that the cheapest rung with dynamics would follow for long: how long, as it goes on this machine.
 void add_cost_note(const std::shared_ptr<const Mechanism>& mechanism, CheckResult& result) {
   constexpr double kManySteps = 1e8, kTrialSeconds = 0.3;
-  double stable = std::numeric_limits<double>::infinity();
-  std::string joint;
-  for (const ContactFrequency& c : result.contacts)
-    if (c.largest_stable_step > 0.0 && c.largest_stable_step < stable) stable = c.largest_stable_step, joint = c.joint;
-  const double steps = mechanism->duration() / stable;
+  const StableStep stable = smallest_stable_step(result);
+  const double steps = mechanism->duration() / stable.seconds;
   if (!(steps > kManySteps)) return;
   RunOptions options;
   options.sample_spacing = 0.0;
@@ -217,9 +224,9 @@ void add_cost_note(const std::shared_ptr<const Mechanism>& mechanism, CheckResul
     // Why it cannot be followed is for `run` to say.
   }
   result.notes.push_back(
-      fmt::format("the contact of {} vibrates so fast that the motion takes {:.2g} steps{}; shorten motion.duration "
-                  "to what has to be seen",
-                  joint, steps, time));
+      fmt::format("{} so fast that the motion takes {:.2g} steps{}; shorten motion.duration to what has to be seen",
+                  stable.joint.empty() ? "springs and dampers vibrate" : "the contact of " + stable.joint + " vibrates",
+                  steps, time));
 }
 
 // What a standing error does to the pointing, and which of them do nothing or cannot be taken up.
@@ -317,7 +324,8 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
         result.findings.push_back(std::move(finding));
       if (result.findings.empty()) {
         add_law_notes(mechanism, result);
-        add_spring_note(mechanism, ideal, result);
+        result.step_of_springs = largest_step_of_springs(mechanism, mechanism.parameters(), ideal);
+        add_spring_note(result);
         add_start_note(mechanism, ideal, result);
         add_cost_note(shared, result);
       }
@@ -337,7 +345,7 @@ report::Document check_report(const Command& command, const Mechanism& mechanism
                          : report::Verdict{report::Standing::bad, result.findings.front()};
   document.facts = {{.label = "Mobility",
                      .value = k.mobility,
-                     .note = fmt::format("{} drives, {} freedoms left free", k.drives, k.free_freedoms)},
+                     .note = how_many(k.drives, "drive") + ", " + how_many(k.free_freedoms, "freedom") + " left free"},
                     {.label = "Redundant rows", .value = k.redundant_rows}};
   if (!k.along.empty()) {
     const auto worst = [&](double ConditioningSample::*value) {
@@ -359,18 +367,10 @@ report::Document check_report(const Command& command, const Mechanism& mechanism
            .note = k.free_freedoms > 0 ? "0 where the joints lose one" : "0 where the drives lose one"});
     }
   }
-  // A play that cannot move has no step.
-  const auto step = [](const ContactFrequency& c) {
-    return c.largest_stable_step > 0.0 ? c.largest_stable_step : 1e300;
-  };
-  const auto stiffest_at = std::min_element(result.contacts.begin(), result.contacts.end(),
-                                            [&](const auto& a, const auto& b) { return step(a) < step(b); });
-  if (stiffest_at != result.contacts.end() && stiffest_at->largest_stable_step > 0.0) {
-    const ContactFrequency& stiffest = *stiffest_at;
+  if (const StableStep stable = smallest_stable_step(result); std::isfinite(stable.seconds))
     document.facts.push_back({.label = "Largest stable step of RK4",
-                              .value = readable(stiffest.largest_stable_step, "s"),
-                              .note = "set by " + stiffest.joint});
-  }
+                              .value = readable(stable.seconds, "s"),
+                              .note = "set by " + (stable.joint.empty() ? "springs and dampers" : stable.joint)});
 
   report::Section findings{.id = "findings", .title = "Findings"};
   std::string text;

@@ -19,6 +19,7 @@ namespace boresight::app {
 struct CheckResult {
   KinematicReport kinematics;
   std::vector<ContactFrequency> contacts;  // empty where the ideal motion cannot be followed
+  double step_of_springs = 0.0;            // of RK4, stable for springs and dampers alone [s]; 0 where there are none
   StartingJournals start;
   std::vector<ErrorEffect> errors;    // of the standing errors; empty where the ideal motion cannot be followed
   std::vector<std::string> findings;  // what stands in the way, most serious first; empty: nothing

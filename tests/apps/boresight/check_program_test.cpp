@@ -103,6 +103,7 @@ journal = "arm"
   const Ended check = call({"check", "stiff.toml", "--out", "out"});
   EXPECT_EQ(check.status, 0) << check.err;
   EXPECT_THAT(check.out, HasSubstr("springs and dampers vibrate faster than any contact"));
+  EXPECT_THAT(text("out/report.html"), HasSubstr("set by springs and dampers"));
   for (const char* rung : {"multibody", "perturbation"}) {
     const Ended run =
         call({"run", "stiff.toml", "--rung", rung, "--step", "0.12 ms", "--step-error", "off", "--out", rung});
