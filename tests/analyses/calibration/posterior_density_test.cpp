@@ -172,7 +172,7 @@ TEST(PosteriorDrawsLong, AgreeWithAFitThatIsSure) {
 
 // A damping law in doubt moves restitution far beyond where a straight line holds: draws that take it for one are too narrow. And what suspects
 // can take of a motion that is far off must leave the noise as large as it is, or the far off is the more probable.
-TEST(PosteriorDrawsLong, AreAsWideAsTheFitWhereALawIsInDoubt) {
+TEST(PosteriorDrawsNight, AreAsWideAsTheFitWhereALawIsInDoubt) {
   // Of 0.12 s the loss is so flat along the stiffness that a third of its error lies between two places of one cost: no error by curvature holds.
   const four_bar::Bench bench({2.0, 2.6}, 0.2, false);
   CalibrationOptions options;

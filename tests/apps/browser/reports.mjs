@@ -70,10 +70,13 @@ fs.writeFileSync(path.join(work, "antenna", "shapley.toml"), `${study}${correlat
 const errors = fs.readFileSync(path.join(scene, "tolerances-budget.toml"), "utf8");
 fs.writeFileSync(path.join(work, "errors-budget.toml"), errors.replace('"tolerances.toml"', JSON.stringify(path.join(scene, "tolerances.toml"))).replace("members = 200", "members = 40").replace("attribution = 40", "attribution = 10"));
 const reports = [];
+const seconds = (since) => ((performance.now() - since) / 1000).toFixed(1);
 for (const [name, words] of Object.entries(commands)) {
+  const begun = performance.now();
   for (const before of examplesOf(words[0]).slice(0, -1)) call(...before);
   const ended = call(...words, "--out", name);
   expect(ended.status === 0 || ended.status === 1, `${words.join(" ")}: status ${ended.status}: ${ended.stderr}`);
+  console.log(`${name}: computed in ${seconds(begun)} s`);
   const report = path.join(work, name, "report.html");
   if (fs.existsSync(report)) reports.push([name, report]);
   else expect(false, `${words.join(" ")} leaves no report`);
@@ -143,8 +146,10 @@ async function look(name, report, { width, dark }) {
 
 try {
   for (const [name, report] of reports) {
+    const begun = performance.now();
     await look(name, report, { width: 1280, dark: false });
     await look(name, report, { width: 390, dark: true });
+    console.log(`${name}: looked at in ${seconds(begun)} s`);
   }
 } finally {
   await browser.close();

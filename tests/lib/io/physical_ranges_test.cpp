@@ -10,6 +10,7 @@
 #include "boresight/contact/normal_law.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "good_file.hpp"
 
 namespace boresight {
 namespace physical_ranges_test {
@@ -20,15 +21,6 @@ std::string example(const std::string& name) {
   std::string text;
   for (std::string line; std::getline(in, line);) text += line.substr(0, line.find('#')) + "\n";
   return text;
-}
-
-std::string error_of(const std::string& text, const std::vector<Setting>& settings = {}) {
-  try {
-    read_mechanism_text(text, "f.toml", settings);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 std::string error_with(const Setting& setting) { return error_of(example("/3-rrcpr/3-rrcpr.toml"), {setting}); }

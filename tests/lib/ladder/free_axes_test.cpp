@@ -39,16 +39,12 @@ Median boresight_error(const Mechanism& mechanism, const Rung& rung, double step
   return {max[1], rms[1]};
 }
 
-// The figure of lib/README.md, 2.39 mrad, and that both formulations and perturbation come to it. Impacts scatter it: medians over neighbouring
-// steps.
+// The figure of lib/README.md, 2.39 mrad, and that perturbation comes to it. Impacts scatter it: medians over neighbouring steps.
 TEST(FreeAxesLong, TurnThePlatformOfTheDefaultSceneByMilliradians) {
   const auto mechanism = with_free_axes("120 mm");
   const Median exact = boresight_error(*mechanism, *make_rung("multibody", mechanism), 1e-5);
   EXPECT_NEAR(exact.max / 2.39e-3, 1.0, 0.01);
   EXPECT_NEAR(exact.rms / 1.60e-3, 1.0, 0.02);  // of the project's first prototype, of which these digits are left
-  const Median paper = boresight_error(*mechanism, *make_rung("multibody", mechanism), 1e-5, "paper");
-  EXPECT_NEAR(paper.max / exact.max, 1.0, 0.01);
-  EXPECT_NEAR(paper.rms / exact.rms, 1.0, 0.01);
   const Median cheap = boresight_error(*mechanism, *make_rung("perturbation", mechanism), 1e-5);
   EXPECT_NEAR(cheap.max / exact.max, 1.0, 0.02);
   EXPECT_NEAR(cheap.rms / exact.rms, 1.0, 0.02);
@@ -57,16 +53,23 @@ TEST(FreeAxesLong, TurnThePlatformOfTheDefaultSceneByMilliradians) {
 // A sleeve a quarter as long lets its journal tilt four times as far, and rattle chaotically besides.
 TEST(FreeAxesLong, OfAShortSleeveTurnItFiveTimesAsFar) {
   const auto mechanism = with_free_axes("30 mm");
-  const auto rung = make_rung("multibody", mechanism);
-  const Median exact = boresight_error(*mechanism, *rung, 1e-5),
-               paper = boresight_error(*mechanism, *rung, 1e-5, "paper");
-  EXPECT_NEAR(paper.max / exact.max, 1.0, 0.10);
-  EXPECT_NEAR(paper.rms / exact.rms, 1.0, 0.05);
+  const Median exact = boresight_error(*mechanism, *make_rung("multibody", mechanism), 1e-5);
   EXPECT_NEAR(exact.max / 14e-3, 1.0, 0.10);  // of the prototype too
   EXPECT_NEAR(exact.rms / 7.6e-3, 1.0, 0.05);
   const double ratio = exact.rms / 1.60e-3;  // which the test above holds the longer one to
   EXPECT_GT(ratio, 4.0);
   EXPECT_LT(ratio, 5.5);
+}
+
+TEST(FreeAxesNight, TurnThePlatformAsFarInBothFormulations) {
+  for (const bool rattles : {false, true}) {
+    const auto mechanism = with_free_axes(rattles ? "30 mm" : "120 mm");
+    const auto rung = make_rung("multibody", mechanism);
+    const Median tree = boresight_error(*mechanism, *rung, 1e-5),
+                 paper = boresight_error(*mechanism, *rung, 1e-5, "paper");
+    EXPECT_NEAR(paper.max / tree.max, 1.0, rattles ? 0.10 : 0.01);
+    EXPECT_NEAR(paper.rms / tree.rms, 1.0, rattles ? 0.05 : 0.01);
+  }
 }
 
 TEST(FreeAxes, GiveTheSameMotionInBothFormulations) {
