@@ -22,7 +22,7 @@ constexpr double kHeld = 1e-9;
 
 // The offset compliances and the ideal joints' reactions along the motion. The reaction on each journal is what the ideal
 // joint supplies: the offset's acceleration without it, divided by the compliance. Where joints share a load, the least that
-// they can share, as shared_reactions() has it; where an offset cannot move, none: what holds it carries the load.
+// they can share, as SharedReactions has it; where an offset cannot move, none: what holds it carries the load.
 struct Size {
   double rms = 0.0, max = 0.0;
 

@@ -126,10 +126,9 @@ class LeftOut {
     coordinates_.gain(deviation.t, T);
     at_.inverse_mass(row_.data(), A);
     const VecX reaction = solve_positive(A, VecX(Eigen::Map<const VecX>(row_.data() + at_.Ar, at_.n)));
-    const MatX B = coordinates_.offsets_per_coordinate(T);
+    const SharedReactions shared(prepared_.scene().offsets(), parameters_, coordinates_.offsets_per_coordinate(T));
     const VecX load = deviation.part_time > 0.0 ? VecX(deviation.load_time / deviation.part_time) : VecX();
-    formulation_->forces().replace_contact(
-        shared_reactions(prepared_.scene().offsets(), parameters_, B, reaction, load));
+    formulation_->forces().replace_contact(shared.of(reaction, load));
 
     IdealState state;
     prepared_.ideal().state(deviation.t, state);
@@ -153,7 +152,7 @@ class LeftOut {
     const VecX moving = z_ddot.cwiseAbs() + by_rates.cwiseAbs() + by_places.cwiseAbs();
     if (want_missed_)
       missed_.push_back(
-          missed(deviation.t, left, reaction, A, B, load, dependent.beyond.cwiseQuotient(dependent.length)));
+          missed(deviation.t, left, reaction, A, shared, load, dependent.beyond.cwiseQuotient(dependent.length)));
     const VecX push = reaction.cwiseQuotient(unit_), push_off = solve_positive(A, left).cwiseQuotient(unit_);
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       double size = 0.0, size_off = 0.0;
@@ -255,11 +254,9 @@ class LeftOut {
 
   // left: what is missed where contacts carry the ideal reactions. They do on the average only: a journal that strikes is pushed by far more,
   // and where its offset is largest. So how forces accelerate is looked at apart, one by one.
-  Missed missed(double t, const VecX& left, const VecX& reaction, const MatX& A, const MatX& B, const VecX& near,
-                VecX offset) {
-    const auto under = [&](const VecX& load) {
-      return acceleration_under(t, shared_reactions(prepared_.scene().offsets(), parameters_, B, load, near));
-    };
+  Missed missed(double t, const VecX& left, const VecX& reaction, const MatX& A, const SharedReactions& shared,
+                const VecX& near, VecX offset) {
+    const auto under = [&](const VecX& load) { return acceleration_under(t, shared.of(load, near)); };
     const double push = reaction.cwiseAbs().maxCoeff();
     if (!(push > 0.0)) return {t, left, MatX::Zero(at_.n, at_.n), std::move(offset)};  // nothing pushes at all
     const VecX balanced = under(reaction);

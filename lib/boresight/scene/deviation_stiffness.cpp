@@ -20,7 +20,7 @@ MatX deviation_stiffness(const Mechanism& mechanism, const IdealMotion& ideal, c
                          const VecX& r) {
   const auto formulation = make_tree_formulation(mechanism, parameters, &ideal, {});
   formulation->forces().replace_contact(
-      shared_reactions(OffsetLayout(mechanism), parameters, coordinates.offsets_per_coordinate(T), r));
+      SharedReactions(OffsetLayout(mechanism), parameters, coordinates.offsets_per_coordinate(T)).of(r));
   const std::vector<ContactMemory> memory(mechanism.clearances());
   const int n = coordinates.count();
   MatX acceleration(n, n), rate(n, n), place(n, n);

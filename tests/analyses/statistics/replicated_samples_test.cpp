@@ -77,6 +77,7 @@ struct Case {
   const char* name;
   Points (*design)(std::mt19937_64&, int, int);
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 class ReplicatedDesigns : public testing::TestWithParam<Case> {
  protected:
   template <typename F>

@@ -27,6 +27,7 @@ struct StudyToKill {
   std::set<std::string> measured = {};  // keys of the summary that hang on times without saying so
   std::string name() const { return what.empty() ? verb : what; }
 };
+inline void PrintTo(const StudyToKill& study, std::ostream* out) { *out << study.name(); }
 
 inline const char* const kScatter = R"(
 [index]

@@ -160,6 +160,7 @@ TEST(Sdf, LoopsStayLoops) {
 struct SdfFault {
   const char *inside, *line, *found;
 };
+void PrintTo(const SdfFault& fault, std::ostream* out) { *out << "line " << fault.line << ", " << fault.found; }
 
 class SdfFaults : public testing::TestWithParam<SdfFault> {};
 

@@ -185,6 +185,7 @@ TEST(Urdf, TheBoresightIsTheAxisThatWasAskedFor) {
 struct Fault {
   const char *text, *line, *found;
 };
+void PrintTo(const Fault& fault, std::ostream* out) { *out << "line " << fault.line << ", " << fault.found; }
 
 class UrdfFault : public testing::TestWithParam<Fault> {};
 

@@ -14,6 +14,9 @@ struct Scene {
   const char *file, *duration;
   double length;  // of each error, in turns to either side [m]
 };
+void PrintTo(const Scene& scene, std::ostream* out) {
+  *out << scene.file << ", " << scene.duration << ", errors of " << 1e3 * scene.length << " mm";
+}
 
 class EnvelopeWithErrors : public testing::TestWithParam<Scene> {};
 

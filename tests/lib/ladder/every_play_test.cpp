@@ -19,6 +19,9 @@ struct Case {
   const NormalLawEntry* law;
   bool tilts;
 };
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.kind->name << ", " << c.law->name << (c.tilts ? ", free" : ", parallel");
+}
 
 std::vector<Case> every_case() {
   std::vector<Case> all;
@@ -88,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Ladder, EveryPlay, testing::ValuesIn(every_case()), nam
 // measure their error by dynamics.
 TEST(EveryPlayNight, IsFollowedForASecond) {
   for (const Case& c : every_case()) {
-    SCOPED_TRACE(std::string(c.kind->name) + ", " + c.law->name + (c.tilts ? ", free" : ", parallel"));
+    SCOPED_TRACE(testing::PrintToString(c));
     expect_followed_or_refused(c, 1.0, {"tree"});
   }
 }

@@ -17,6 +17,7 @@ struct PlayKind {
   const char *sizes, *length;
   bool tilts = true;  // may be parallel or free
 };
+inline void PrintTo(const PlayKind& kind, std::ostream* out) { *out << kind.name; }
 
 inline const std::vector<PlayKind>& play_kinds() {
   static const char* kJournal = "radial = \"GAP\"\njournal_radius = \"8 mm\"\n";

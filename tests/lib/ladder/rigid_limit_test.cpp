@@ -75,6 +75,7 @@ struct Case {
   const PlayKind* kind;
   bool tilts;
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.kind->name << (c.tilts ? ", free" : ", parallel"); }
 
 std::vector<Case> every_case() {
   std::vector<Case> all;
