@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "boresight/contact/law_range.hpp"
+#include "boresight/contact/turn_range.hpp"
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -100,12 +101,14 @@ report::Table contact_frequencies(const std::vector<ContactFrequency>& contacts)
   return table;
 }
 
-// Laws used outside of their range under the largest ideal load, and parallel journals whose contact is a line, not a point.
+// Turns in short wide bearings and guides, laws used outside of their range under the largest ideal load, and parallel journals whose contact is a line, not a point.
 void add_law_notes(const Mechanism& mechanism, CheckResult& result) {
   for (std::size_t c = 0; c < result.contacts.size(); ++c) {
     const ClearanceDescription& d = mechanism.description().clearances[c];
     const ClearanceParameters& p = mechanism.parameters().clearance[c];
     const ContactFrequency& contact = result.contacts[c];
+    const JointType type = mechanism.description().joints[static_cast<std::size_t>(d.joint)].type;
+    if (const auto warning = turn_warning(contact.joint, d, type, p)) result.notes.push_back(*warning);
     if (const auto warning = range_warning(contact.joint, d.contact_law, p, contact.largest_radial_load)) {
       result.notes.push_back(*warning);
       continue;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "boresight/contact/law_range.hpp"
+#include "boresight/contact/turn_range.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/pressed_through.hpp"
 #include "boresight_analyses/study/index_choice.hpp"
@@ -27,6 +28,12 @@ void refuse_absurd(const Mechanism& mechanism, const Parameters& parameters, con
 }
 
 void add_range_warnings(const Mechanism& mechanism, const Parameters& parameters, RunResult& result) {
+  const MechanismDescription& m = mechanism.description();
+  for (std::size_t c = 0; c < m.clearances.size(); ++c) {
+    const JointDescription& joint = m.joints[static_cast<std::size_t>(m.clearances[c].joint)];
+    if (const auto warning = turn_warning(joint.name, m.clearances[c], joint.type, parameters.clearance[c]))
+      result.warnings.push_back(*warning);
+  }
   for (std::size_t c = 0; c < result.contact.size(); ++c)
     if (const auto warning = range_warning(result.contact[c].joint, mechanism.description().clearances[c].contact_law,
                                            parameters.clearance[c], result.contact[c].max_force))

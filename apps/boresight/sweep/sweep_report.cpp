@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <set>
 
@@ -178,11 +179,10 @@ std::vector<report::Fact> headline(const Study& study, const SweepPlan& plan, co
 
 std::vector<std::string> warnings_of(const SweepPlan& plan, const SweepResult& result) {
   std::vector<std::string> warnings;
-  for (const SweepPoint& p : result.points) {
+  for (const SweepPoint& p : result.points)
     if (p.status == SweepPoint::Status::failed)
       warnings.push_back(point_name(plan, p, true) + ": failed: " + p.failure);
-    for (const std::string& w : p.result.warnings) warnings.push_back(point_name(plan, p, true) + ": " + w);
-  }
+  for (const std::string& warning : told_of_points(plan, result)) warnings.push_back(warning);
   constexpr std::size_t kShown = 12;
   if (warnings.size() > kShown) {
     const std::size_t more = warnings.size() - kShown;
@@ -202,6 +202,34 @@ std::string point_name(const SweepPlan& plan, const SweepPoint& point, bool with
     name += readable_as(point.values[i], plan.axes[i].si_unit, plan.axes[i].unit);
   }
   return name;
+}
+
+std::vector<std::string> told_of_points(const SweepPlan& plan, const SweepResult& result) {
+  struct Told {
+    std::string kind, text;
+    std::size_t points = 0;
+  };
+  std::vector<Told> told;
+  std::size_t done = 0;
+  for (const SweepPoint& p : result.points) {
+    if (p.status != SweepPoint::Status::done) continue;
+    ++done;
+    std::vector<std::string> here;  // a point counts once for each
+    for (const std::string& warning : p.result.warnings) {
+      std::string kind;
+      for (const char letter : warning)
+        if (letter != '.' && std::isdigit(static_cast<unsigned char>(letter)) == 0) kind += letter;
+      if (std::find(here.begin(), here.end(), kind) != here.end()) continue;
+      here.push_back(kind);
+      auto known = std::find_if(told.begin(), told.end(), [&](const Told& other) { return other.kind == kind; });
+      if (known == told.end()) known = told.insert(told.end(), {kind, point_name(plan, p, true) + ": " + warning, 0});
+      ++known->points;
+    }
+  }
+  std::vector<std::string> warnings;
+  for (const Told& one : told)
+    warnings.push_back(one.points > 1 ? fmt::format("{} (at {} of {} points)", one.text, one.points, done) : one.text);
+  return warnings;
 }
 
 report::Document sweep_report(const Command& command, const Study& study, const Mechanism& mechanism,

@@ -13,6 +13,9 @@ report::Document sweep_report(const Command& command, const Study& study, const 
                               const RungChoice& rung, const std::string& leaves_out, const SweepPlan& plan,
                               const SweepResult& result);
 
+// What its points warn of: each warning once, at the first point that has it, and at how many it is; those that differ in numbers alone are one.
+std::vector<std::string> told_of_points(const SweepPlan& plan, const SweepResult& result);
+
 // "clearance.F1.radial = 0.1 mm, payload.mass = 250 kg", or without names where there is one axis.
 std::string point_name(const SweepPlan& plan, const SweepPoint& point, bool with_parameters);
 

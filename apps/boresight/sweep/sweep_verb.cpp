@@ -11,6 +11,7 @@
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
 #include "results/assumed.hpp"
+#include "results/motion_claims.hpp"
 #include "results/report_files.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
@@ -102,7 +103,7 @@ void print(const Command& command, const Study& study, const SweepPlan& plan, co
       tell("  {}: {}{}\n", point_name(plan, p, true), to_string(p.status), p.failure.empty() ? "" : ": " + p.failure);
   }
   if (result.points.size() > kShown) tell("  and {} more in sweep.csv\n", result.points.size() - kShown);
-  tell_warnings({}, command, mechanism);
+  tell_warnings(told_of_points(plan, result), command, mechanism);
   tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
@@ -140,10 +141,9 @@ class SweepVerb : public Verb {
                   : 0.0;
     options.run.events = histories;
 
-    // The grid's corners: what is true of them is taken to be true between them.
     Unfinished begun = own.run().go_on([&] {
       return own.run().choose_rung({.wants_multibody = motion_.asks_for_multibody(), .integrators = true}, kPilotTrials,
-                                   corners_of(plan, *mechanism));
+                                   tried_points(plan, *mechanism));
     });
     const RungChoice& choice = begun.rung;
     apply(choice, options.run);
@@ -155,7 +155,10 @@ class SweepVerb : public Verb {
       return !interrupted();
     };
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
-    const SweepResult result = run_sweep(*rung, *mechanism, plan, options);
+    SweepResult result = run_sweep(*rung, *mechanism, plan, options);
+    for (std::size_t k = 0; k < result.points.size(); ++k)
+      if (SweepPoint& p = result.points[k]; p.status == SweepPoint::Status::done)
+        add_range_warnings(*mechanism, plan.parameters_at(*mechanism, k), p.result);
 
     write_json(out, "summary.json", summary_of(own, study, choice, plan, result, watch, begun.results->earlier()));
     out.write("sweep.csv", [&](std::ostream& s) { write_sweep(s, plan, *mechanism, result); });
@@ -174,16 +177,18 @@ class SweepVerb : public Verb {
   }
 
  private:
-  // Where every axis is at its smallest or its largest value, whatever order they are listed in; of many axes two opposite ones.
-  static std::vector<Parameters> corners_of(const SweepPlan& plan, const Mechanism& mechanism) {
-    constexpr std::size_t kMostAxes = 3;
+  // The grid's corners, where every axis is at its smallest or its largest value, whatever order they are listed in; of many axes two opposite
+  // ones. And some between them, the middle first of all: an error that is swept through zero, or a load, hides a rung's own error at the ends.
+  static std::vector<Parameters> tried_points(const SweepPlan& plan, const Mechanism& mechanism) {
+    constexpr std::size_t kMostAxes = 3, kMostBetween = 3;
     std::vector<double> least, largest;
     for (const SweepAxis& axis : plan.axes) {
       const auto [low, high] = std::minmax_element(axis.values.begin(), axis.values.end());
       least.push_back(*low);
       largest.push_back(*high);
     }
-    std::vector<Parameters> corners;
+    std::vector<Parameters> tried;
+    std::vector<std::size_t> between;
     for (std::size_t k = 0; k < plan.points(); ++k) {
       const std::vector<double> values = plan.values_at(k);
       std::size_t lowest = 0, highest = 0, either = 0;
@@ -194,9 +199,14 @@ class SweepVerb : public Verb {
       }
       const bool corner = either == values.size();
       if (corner && (values.size() <= kMostAxes || lowest == values.size() || highest == values.size()))
-        corners.push_back(plan.parameters_at(mechanism, k));
+        tried.push_back(plan.parameters_at(mechanism, k));
+      else
+        between.push_back(k);
     }
-    return corners;
+    const std::size_t more = std::min(kMostBetween, between.size());
+    for (std::size_t i = 0; i < more; ++i)
+      tried.push_back(plan.parameters_at(mechanism, between[(2 * i + 1) * between.size() / (2 * more)]));
+    return tried;
   }
 
   static Json summary_of(const VerbStudy& own, const Study& study, const RungChoice& choice, const SweepPlan& plan,
@@ -204,6 +214,7 @@ class SweepVerb : public Verb {
     std::vector<std::string> warnings;
     for (const SweepPoint& p : result.points)
       if (p.status == SweepPoint::Status::failed) warnings.push_back(point_name(plan, p, true) + ": " + p.failure);
+    for (const std::string& warning : told_of_points(plan, result)) warnings.push_back(warning);
     Json json = own.head(study, choice, watch, warnings, result.interrupted, earlier);
     json["index"] = {
         {"quantity", study.index.quantity}, {"statistic", study.index.statistic}, {"values", Json::array()}};

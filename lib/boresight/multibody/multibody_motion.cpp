@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "boresight/rungs/fast_impacts.hpp"
 #include "boresight/rungs/start_up.hpp"
 
 namespace boresight {
@@ -11,27 +12,15 @@ namespace {
 // More than this share of the largest energy is worth a word: as much of what carries the motion as is mostly asked of an index.
 constexpr double kEnergyLost = 0.01;
 
-void warn(RunResult& result) {
-  if (result.energy_error > kEnergyLost) {
-    char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "the steps make or lose up to %.2g %% of the largest energy of this motion; a shorter --step, or a smaller "
-        "--tolerance of an --integrator with error control, keeps it",
-        100.0 * result.energy_error);
-    result.warnings.push_back(text);
-  }
-  for (const ContactSummary& c : result.contact) {
-    if (c.impact_speed_above_validity == 0) continue;
-    char text[300];
-    std::snprintf(
-        text, sizeof text,
-        "%s: %lld of %lld impacts were faster than %.3g m/s, up to which the contact law is valid (Love 1944); the "
-        "fastest was %.1f times that",
-        c.joint.c_str(), static_cast<long long>(c.impact_speed_above_validity), static_cast<long long>(c.impacts),
-        c.validity_speed, c.max_impact_speed / c.validity_speed);
-    result.warnings.push_back(text);
-  }
+void note_lost_energy(RunResult& result) {
+  if (!(result.energy_error > kEnergyLost)) return;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "the steps make or lose up to %.2g %% of the largest energy of this motion; a shorter --step, or a smaller "
+      "--tolerance of an --integrator with error control, keeps it",
+      100.0 * result.energy_error);
+  result.warnings.push_back(text);
 }
 
 }  // namespace
@@ -50,7 +39,8 @@ void MultibodyMotion::complete(RunResult& result, std::vector<ContactTracker>& t
   for (ContactTracker& tracker : trackers) result.contact.push_back(tracker.finish(result.end_time, result.events));
   std::stable_sort(result.events.begin(), result.events.end(),
                    [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
-  warn(result);
+  note_lost_energy(result);
+  note_fast_impacts(result);
   note_start_up(mechanism, result);
 }
 

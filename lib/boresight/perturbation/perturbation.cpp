@@ -12,6 +12,7 @@
 #include "boresight/perturbation/pushed_motions.hpp"
 #include "boresight/perturbation/second_order.hpp"
 #include "boresight/play/play_words.hpp"
+#include "boresight/rungs/fast_impacts.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/option_check.hpp"
 #include "boresight/rungs/start_up.hpp"
@@ -202,6 +203,7 @@ class Perturbation final : public SceneRung {
       result.contact.push_back(tracker.finish(result.end_time, result.events));
     std::stable_sort(result.events.begin(), result.events.end(),
                      [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
+    note_fast_impacts(result);
     note_start_up(mechanism(), result);
   }
 
