@@ -197,6 +197,12 @@ std::string machine_line(const Machine& m) {
                      m.load);
 }
 
+std::string left_out_sentence(const ChartResult& result, const std::string& family) {
+  const bool begun =
+      std::any_of(result.points.begin(), result.points.end(), [&](const ChartPoint& p) { return p.family == family; });
+  return (begun ? "no time was left for other steps of " : "no time was left for ") + family;
+}
+
 report::Document chart_report(const Command& command, const Mechanism& mechanism, const ChartResult& result,
                               std::optional<double> accuracy) {
   report::Document document{
@@ -237,7 +243,7 @@ report::Document chart_report(const Command& command, const Mechanism& mechanism
                                     [](const ChartPoint& p) { return !p.measured.refusal.empty(); });
   document.facts.push_back(
       {.label = "Ways tried", .value = result.points.size(), .note = fmt::format("{} failed", failed)});
-  for (const std::string& name : result.left_out) document.warnings.push_back("no time was left for " + name);
+  for (const std::string& name : result.left_out) document.warnings.push_back(left_out_sentence(result, name));
   report::Section index{.id = "index", .title = "Error of the index over the run"};
   if (!result.points.empty()) {
     index.items = {index_chart(result, accuracy), front_table(result), all_table(result)};

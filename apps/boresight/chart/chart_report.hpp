@@ -14,6 +14,9 @@ namespace boresight::app {
 report::Document chart_report(const Command& command, const Mechanism& mechanism, const ChartResult& result,
                               std::optional<double> accuracy);
 
+// "no time was left for other steps of ...", of a family of ways that was begun or not.
+std::string left_out_sentence(const ChartResult& result, const std::string& family);
+
 // "AMD EPYC 7B13, 2 cores, GCC 12.2.0, optimised, load 1.2"
 std::string machine_line(const Machine& machine);
 

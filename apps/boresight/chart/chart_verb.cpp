@@ -73,7 +73,7 @@ const RungChoice kAllRungs{.name = "all", .why = "the chart compares them"};
 
 std::vector<std::string> warnings_of(const ChartResult& result) {
   std::vector<std::string> warnings;
-  for (const std::string& name : result.left_out) warnings.push_back("no time was left for " + name);
+  for (const std::string& name : result.left_out) warnings.push_back(left_out_sentence(result, name));
   for (const std::string& name : result.flight.left_out)
     warnings.push_back("no time was left for the flight before the first impact of " + name);
   return warnings;
