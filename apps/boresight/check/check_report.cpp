@@ -101,7 +101,8 @@ report::Table contact_frequencies(const std::vector<ContactFrequency>& contacts)
   return table;
 }
 
-// Turns in short wide bearings and guides, laws used outside of their range under the largest ideal load, and parallel journals whose contact is a line, not a point.
+// Turns in short wide bearings and guides, laws used outside of their range under the largest ideal load, and parallel
+// journals whose contact is a line, not a point.
 void add_law_notes(const Mechanism& mechanism, CheckResult& result) {
   for (std::size_t c = 0; c < result.contacts.size(); ++c) {
     const ClearanceDescription& d = mechanism.description().clearances[c];

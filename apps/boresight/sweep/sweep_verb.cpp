@@ -142,8 +142,12 @@ class SweepVerb : public Verb {
     options.run.events = histories;
 
     Unfinished begun = own.run().go_on([&] {
-      return own.run().choose_rung({.wants_multibody = motion_.asks_for_multibody(), .integrators = true}, kPilotTrials,
-                                   tried_points(plan, *mechanism));
+      const std::vector<Parameters> tried = tried_points(plan, *mechanism);
+      RungChoice chosen = own.run().choose_rung({.wants_multibody = motion_.asks_for_multibody(), .integrators = true},
+                                                kPilotTrials, tried);
+      if (chosen.pilot && tried.size() < plan.points())
+        chosen.why += fmt::format("; tried at {} of {} points", tried.size(), plan.points());
+      return chosen;
     });
     const RungChoice& choice = begun.rung;
     apply(choice, options.run);

@@ -6,7 +6,7 @@
 namespace boresight {
 namespace {
 
-constexpr double kSaid = 0.01;  // what a bearing's standard deviations or a contact's stiffness are known to at best
+constexpr double kSaid = 0.01;  // as much as is mostly asked of an index
 
 double share(double half_width, double gap, double half_length) {
   return half_length > 0.0 ? 0.5 * half_width * gap / (half_length * half_length) : 0.0;

@@ -75,6 +75,10 @@ TEST(LinearDeviation, MeetsAMotionThatTurnsBackAndForthAtAllItsAngles) {
   for (const char* duration : {"250 s", "62.5 s"})
     expect_followed(antenna("1.2*sin(2*pi*t)", duration), {"boresight_error", "max"});
 }
+TEST(LinearDeviationNight, MeetsAMotionThatTurnsBackAndForthAtAllItsAngles) {
+  for (const char* duration : {"250 s", "62.5 s"})
+    expect_followed(antenna("1.2*sin(2*pi*t)", duration), {"boresight_error", "rms"});
+}
 
 // Gaps of a fifth and of 1.7 times those that it was taken at, where it has not been tried.
 TEST(LinearDeviation, FoundOnASceneIsItsQuasistaticRungForEveryQuantityAndGap) {

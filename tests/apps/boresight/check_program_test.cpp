@@ -24,7 +24,6 @@ law = "kelvin-voigt"
 stiffness = "4e7 N/m"
 damping = "2000 N s/m"
 )";
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
 };
 
 // All of the load points along the axis: its end face carries it, and the journal's law, softer forty times, nothing.

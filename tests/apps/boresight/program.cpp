@@ -58,6 +58,10 @@ Ended Program::wait_for(pid_t child) const {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text("stdout"), text("stderr")};
 }
 
+void Program::write(const std::string& name, const std::string& content) const {
+  std::ofstream(folder_ / name) << content;
+}
+
 std::string Program::text(const std::string& name) const {
   std::ifstream in(folder_ / name);
   std::ostringstream text;

@@ -41,7 +41,9 @@ class Program : public testing::Test {
     return wait_for(start(arguments, limit));
   }
 
-  std::string text(const std::string& name) const;  // of a file in the folder
+  // A file in the folder.
+  void write(const std::string& name, const std::string& content) const;
+  std::string text(const std::string& name) const;
   nlohmann::json json(const std::string& name) const;
   // Everything in a folder below, hidden files included.
   std::vector<std::string> files(const std::string& folder) const;

@@ -23,7 +23,6 @@ class ProgramTest : public Program {
     EXPECT_EQ(ended.out, "");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
   }
-  void write(const std::string& name, const std::string& content) const { std::ofstream(folder_ / name) << content; }
   // A motion of 50 ms, so that tests are quick.
   std::vector<std::string> quick(std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments = {"run", mechanism_, "--set", "motion.duration=50ms", "--out", "out"};

@@ -2,20 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "program.hpp"
+#include "slider_in_guide_file.hpp"
 
 namespace boresight::app {
 namespace sweep_program_test {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
-class SweepProgram : public Program {
- protected:
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
-};
+class SweepProgram : public Program {};
 
 // At both ends the bound is next to the truth: heavy loads lie at it, and next to none lets journals stand anywhere. Between them it is 11 % above.
 TEST_F(SweepProgram, ChoosesARungThatHoldsBetweenTheEndsToo) {
@@ -29,46 +26,23 @@ TEST_F(SweepProgram, ChoosesARungThatHoldsBetweenTheEndsToo) {
   const auto chosen = json("auto/summary.json")["index"]["values"],
              exact = json("exact/summary.json")["index"]["values"];
   ASSERT_EQ(chosen.size(), 3u);
+  // All three were tried.
+  EXPECT_THAT(json("auto/summary.json")["rung_why"].get<std::string>(), Not(HasSubstr("; tried at")));
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(chosen[k].get<double>() / exact[k].get<double>(), 1.0, 0.02) << k;
 }
 
+TEST_F(SweepProgram, SaysAtHowManyOfItsPointsRungsWereTried) {
+  ASSERT_EQ(call({"new", "antenna"}).status, 0);
+  write("antenna/study.toml",
+        "format = 1\nmechanism = \"mechanism.toml\"\naccuracy = \"5 %\"\n[[sweep.axis]]\nparameter = \"payload.mass\"\n"
+        "from = \"1 kg\"\nto = \"2 kg\"\ncount = 9\n");
+  const Ended ended = call({"sweep", "antenna/study.toml", "--out", "out", "--quiet"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(json("out/summary.json")["rung_why"].get<std::string>(), HasSubstr("; tried at 5 of 9 points"));
+}
+
 TEST_F(SweepProgram, TellsWhatItsPointsWarnOfOnce) {
-  write("wide.toml", R"toml(format = 1
-name = "wide"
-gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
-[[body]]
-name = "slider"
-mass = "2 kg"
-center_of_mass = ["10 mm", "10 mm", "0 mm"]
-inertia = ["0.002 kg m^2", "0.002 kg m^2", "0.002 kg m^2"]
-boresight = [1, 0, 0]
-[[joint]]
-name = "G"
-type = "prismatic"
-connects = ["ground", "slider"]
-point = ["0 mm", "0 mm", "0 mm"]
-axis = [1, 0, 0]
-driven = true
-[motion]
-duration = "20 ms"
-drives = { G = "0*t" }
-[[clearance]]
-joint = "G"
-journal = "slider"
-guide = "rectangular"
-width_gap = "0.03 mm"
-height_gap = "0.02 mm"
-width = "200 mm"
-height = "20 mm"
-length = "20 mm"
-width_direction = [0, 1, 0]
-axes = "free"
-  [clearance.contact]
-  law = "flores"
-  restitution = 0.6
-  young = ["207 GPa", "72 GPa"]
-  poisson = [0.3, 0.33]
-)toml");
+  write("wide.toml", scenes::slider_in_guide("200 mm", "20 mm"));
   write("study.toml",
         "format = 1\nmechanism = \"wide.toml\"\n[[sweep.axis]]\nparameter = \"clearance.G.width_gap\"\n"
         "values = [\"0.1 mm\", \"0.12 mm\"]\n");

@@ -17,7 +17,6 @@ using testing::Not;
 
 class UntrustedInputTest : public Program {
  protected:
-  void write(const std::string& name, const std::string& content) const { std::ofstream(folder_ / name) << content; }
   // The example's mechanism with one text put in place of another.
   void write_mechanism(const std::string& name, const std::string& from, const std::string& to) const {
     std::string content = text_of(mechanism_);

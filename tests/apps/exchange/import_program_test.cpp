@@ -18,10 +18,7 @@ const char kGimbal[] = R"(<robot name="gimbal">
 </robot>
 )";
 
-class ImportProgram : public Program {
- protected:
-  void write(const std::string& name, const std::string& content) const { std::ofstream(folder_ / name) << content; }
-};
+class ImportProgram : public Program {};
 
 TEST_F(ImportProgram, WritesAMechanismThatChecksAndRuns) {
   write("gimbal.urdf", kGimbal);

@@ -9,6 +9,7 @@
 #include "boresight/ladder/ladder.hpp"
 #include "published_examples.hpp"
 #include "scenes.hpp"
+#include "slider_in_guide_file.hpp"
 
 namespace boresight {
 namespace energy_balance_test {
@@ -78,44 +79,8 @@ TEST(EnergyBalance, IsWarnedOfWhereStepsLoseMoreThanAHundredth) {
 
 // A slider that its weight presses on its guide: nothing moves, and rounding has no share that steps could keep.
 TEST(EnergyBalance, IsNotLookedAtWhereNothingMoves) {
-  const char* resting = R"toml(format = 1
-name = "resting"
-gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
-[[body]]
-name = "slider"
-mass = "2 kg"
-center_of_mass = ["10 mm", "0 mm", "0 mm"]
-inertia = ["0.002 kg m^2", "0.002 kg m^2", "0.002 kg m^2"]
-boresight = [1, 0, 0]
-[[joint]]
-name = "G"
-type = "prismatic"
-connects = ["ground", "slider"]
-point = ["0 mm", "0 mm", "0 mm"]
-axis = [1, 0, 0]
-driven = true
-[motion]
-duration = "50 ms"
-drives = { G = "0*t" }
-[[clearance]]
-joint = "G"
-journal = "slider"
-guide = "rectangular"
-width_gap = "0.03 mm"
-height_gap = "0.02 mm"
-width = "40 mm"
-height = "20 mm"
-length = "60 mm"
-width_direction = [0, 1, 0]
-axes = "free"
-  [clearance.contact]
-  law = "flores"
-  restitution = 0.6
-  young = ["207 GPa", "72 GPa"]
-  poisson = [0.3, 0.33]
-)toml";
-  const auto mechanism =
-      std::make_shared<const Mechanism>(read_mechanism_text(resting, "resting.toml", std::vector<Setting>{}));
+  const auto mechanism = std::make_shared<const Mechanism>(
+      read_mechanism_text(scenes::slider_in_guide("40 mm", "60 mm"), "slider.toml", std::vector<Setting>{}));
   for (const char* integrator : {"rk4", "rosenbrock"}) {
     const RunResult result = run(mechanism, {"tree", integrator});
     EXPECT_GT(result.index.position_error.max, 15e-6);
