@@ -16,7 +16,7 @@
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
-#include "results/start_warnings.hpp"
+#include "results/study_warnings.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
@@ -238,7 +238,7 @@ class AllocateVerb : public Verb {
       allocated.warnings.push_back(
           fmt::format("{} of {} confirming runs failed", confirming.failures.count, confirming.runs) +
           first_failure_text(confirming.failures, "run"));
-    for (const std::string& one : start_warnings(*mechanism, choice.name)) allocated.warnings.push_back(one);
+    for (const std::string& one : study_warnings(*mechanism, choice.name)) allocated.warnings.push_back(one);
     if (!store->damage().empty()) allocated.warnings.push_back(store->damage());
     Json summary = summary_of(allocated, own, watch, store->earlier());
     add_first_failure(summary, confirming.failures, "run");

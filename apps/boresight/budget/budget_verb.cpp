@@ -19,7 +19,7 @@
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
-#include "results/start_warnings.hpp"
+#include "results/study_warnings.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
@@ -146,7 +146,7 @@ class BudgetVerb : public Verb {
     result.steps = steps;
     if (budget) result.warnings = warnings_of(result, seen);
     result.warnings.insert(result.warnings.end(), untold.begin(), untold.end());
-    for (const std::string& one : start_warnings(*mechanism, choice.name)) result.warnings.push_back(one);
+    for (const std::string& one : study_warnings(*mechanism, choice.name)) result.warnings.push_back(one);
     if (!stuck.empty()) result.warnings.push_back(stuck);
     if (!store.damage().empty()) result.warnings.push_back(store.damage());
     write(result, seen, own, watch, store.earlier());

@@ -24,7 +24,7 @@
 #include "command_line/verb.hpp"
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
-#include "results/start_warnings.hpp"
+#include "results/study_warnings.hpp"
 #include "results/summary.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
@@ -131,7 +131,7 @@ class CalibrateVerb : public Verb {
     Unfinished begun = own.run().go_on([&] { return rung; });
     problem.kept = begun.results.get();
     CalibrationResult result = calibrate(problem, options);
-    for (const std::string& one : start_warnings(*mechanism, rung.name)) result.warnings.push_back(one);
+    for (const std::string& one : study_warnings(*mechanism, rung.name)) result.warnings.push_back(one);
     stage->clear();
     const CalibrationStudy whole{command, study, *mechanism, rung, plan, problem, result};
     if (result.interrupted && result.inference.parameters.empty()) {

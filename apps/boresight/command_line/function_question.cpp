@@ -56,10 +56,11 @@ AskedFunction function_of_mechanism(const FunctionQuestion& question) {
     throw InputError(kGivenAsOption, "--input", error.found, error.expected, error.nearest);
   }
   RunOptions run = question.motion.run_options(*mechanism, command.rung);
-  const RungChoice choice =
-      StudyRun(mechanism, run_options_of(command, index, {}, run))
-          .choose_rung({.wants_multibody = question.motion.asks_for_multibody(), .integrators = true}, kPilotTrials,
-                       {mechanism->parameters()});
+  RungChoice choice = StudyRun(mechanism, run_options_of(command, index, {}, run))
+                          .choose_rung({.wants_multibody = question.motion.asks_for_multibody(), .integrators = true},
+                                       kPilotTrials, {mechanism->parameters()});
+  // How far its user goes from there nobody has said; a study's [[random]] does.
+  if (choice.pilot) choice.why += "; tried at the file's values alone";
   apply(choice, run);
   return {mechanism->name(), "", choice,
           std::make_shared<const IndexFunction>(mechanism, inputs,

@@ -18,7 +18,7 @@
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
-#include "results/start_warnings.hpp"
+#include "results/study_warnings.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
@@ -207,7 +207,7 @@ class MatchVerb : public Verb {
     };
     add_failed(evaluator, choice.name);
     if (upper_evaluator) add_failed(*upper_evaluator, upper);
-    for (const std::string& one : start_warnings(*mechanism, choice.name)) matched.warnings.push_back(one);
+    for (const std::string& one : study_warnings(*mechanism, choice.name)) matched.warnings.push_back(one);
     if (!store->damage().empty()) matched.warnings.push_back(store->damage());
     Json summary = summary_of(matched, own, watch, store->earlier());
     add_first_failure(summary, evaluator.failures(), "run");

@@ -16,7 +16,7 @@
 #include "montecarlo/several_rungs.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
-#include "results/start_warnings.hpp"
+#include "results/study_warnings.hpp"
 #include "results/summary.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
@@ -268,7 +268,7 @@ class MonteCarloVerb : public Verb {
                           .warnings = warnings_of(question, result, estimates, shown.failures),
                           .leaves_out = model.leaves_out(),
                           .replay = replay_command(command, choice, model)};
-    for (const std::string& one : start_warnings(*question.mechanism, choice.name)) study.warnings.push_back(one);
+    for (const std::string& one : study_warnings(*question.mechanism, choice.name)) study.warnings.push_back(one);
     if (!stuck.empty()) study.warnings.push_back(stuck);
     if (!store.damage().empty()) study.warnings.push_back(store.damage());
     write_json(out, "summary.json", summary_of(study, watch, own, store));

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "report_parts/report_parts.hpp"
-#include "results/start_warnings.hpp"
+#include "results/study_warnings.hpp"
 #include "terminal/readable.hpp"
 
 namespace boresight::app {
@@ -11,7 +11,7 @@ namespace boresight::app {
 RungChoice named_rung(const std::string& rung) { return {rung, "the study names its rungs", 0.0}; }
 
 std::vector<std::string> several_rungs_warnings(const SeveralRungs& s) {
-  std::vector<std::string> warnings = start_warnings(*s.question.mechanism, "perturbation");
+  std::vector<std::string> warnings = study_warnings(*s.question.mechanism, "perturbation");
   const MonteCarloPlan& plan = s.question.plan;
   if (plan.samples_of_budget)
     warnings.push_back("samples = " + std::to_string(plan.samples) + " is not used: the budget of " +

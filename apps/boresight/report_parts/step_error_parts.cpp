@@ -42,6 +42,17 @@ bool scatters(const MeasuredError& measured, const IndexChoice& of) {
   return false;
 }
 
+// Of a model's error that is larger than the lesser of what it finds and what there is, which one of the two it is nobody knows.
+constexpr double kManyTimes = 2.0;
+// "4.6", "180", "10000 or more": how far apart the two may be, model the error over the lesser one.
+std::string factor_text(double model) {
+  constexpr double kNoMore = 1e4;  // told apart
+  const double factor = 1.0 + model;
+  return !(factor < kNoMore) ? fmt::format("{:.0f} or more", kNoMore)
+         : factor < 100.0    ? fmt::format("{:.2g}", factor)
+                             : fmt::format("{:.0f}", factor);
+}
+
 std::string of_what_is_found(double relative) {
   return relative < kSaidAsMultiple ? readable_share(relative) + " of what is found"
                                     : relative_text(relative, 3, "what is found");
@@ -87,9 +98,10 @@ std::string step_error_sentence(const MeasuredError& measured, const PointingInd
 std::string stated_error_text(const MeasuredError& measured, const RunResult& result, const IndexChoice& of,
                               double size) {
   if (!measured.measured || is_nothing(of.of(result.index), of, size)) return "";
-  const double relative = relative_step_error(measured, result.index, of) +
-                          (result.error.basis.empty() ? 0.0 : result.error.model_of(of.kind()));
+  const double model = result.error.basis.empty() ? 0.0 : result.error.model_of(of.kind());
+  const double relative = relative_step_error(measured, result.index, of) + model;
   if (relative < kOfRounding) return "";
+  if (model >= kManyTimes) return "within a factor of " + factor_text(relative);
   constexpr double kLeastShown = 1e-4;  // three digits are printed, and a bound may be wider
   return "± " + relative_text(std::max(relative, kLeastShown), 2, "it");
 }
@@ -105,18 +117,18 @@ std::string force_error_text(const MeasuredError& measured, const RunResult& res
 
 ModelErrorSaid model_error_said(const RunResult& result, const IndexChoice& of, double size) {
   // A tenth of what is asked for is more than any reader would take for granted.
-  constexpr double kMuch = 0.1, kManyTimes = 2.0;
+  constexpr double kMuch = 0.1;
   const double share = result.error.model_of(of.kind());
   // Where nothing is found only a share of what another rung finds can be many times that.
   const bool nothing = is_nothing(of.of(result.index), of, size);
   if (result.error.basis.empty() || !(share > kOfRounding) || (nothing && share < kManyTimes)) return {};
-  const std::string about = nothing                   ? std::string("far more than it finds")
-                            : share < 1.0             ? fmt::format("about {} of it", readable_share(share))
-                            : share < kManyTimes      ? std::string("anything up to the whole of it")
-                            : share < kSaidAsMultiple ? fmt::format("up to {:.2g} times what it finds", share)
-                                                      : "up to " + relative_text(share, 2, "what it finds");
-  ModelErrorSaid said{
-      fmt::format("{}: what the {} rung leaves out is {}, by its own estimate", of.title(), result.rung, about), ""};
+  const std::string rung = "the " + result.rung + " rung", left_out = "what " + rung + " leaves out is ";
+  const std::string about = nothing       ? left_out + "far more than it finds"
+                            : share < 1.0 ? left_out + "about " + readable_share(share) + " of it"
+                            : share < kManyTimes
+                                ? left_out + "anything up to the whole of it"
+                                : rung + " may be off by a factor of " + factor_text(share) + ", up or down";
+  ModelErrorSaid said{of.title() + ": " + about + ", by its own estimate", ""};
   if (share > kMuch) said.warning = said.sentence + "; --rung multibody leaves nothing of that out";
   return said;
 }

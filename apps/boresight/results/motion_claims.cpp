@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "boresight/contact/law_range.hpp"
 #include "boresight/contact/turn_range.hpp"
@@ -27,17 +28,29 @@ void refuse_absurd(const Mechanism& mechanism, const Parameters& parameters, con
   if (const auto through = pressed_through(mechanism, parameters, result)) throw ComputationError(*through);
 }
 
-void add_range_warnings(const Mechanism& mechanism, const Parameters& parameters, RunResult& result) {
+std::vector<std::string> range_warnings(const Mechanism& mechanism, const Parameters& parameters,
+                                        const std::vector<double>& loads) {
   const MechanismDescription& m = mechanism.description();
+  std::vector<std::string> warnings;
+  const auto joint_of = [&](std::size_t c) -> const JointDescription& {
+    return m.joints[static_cast<std::size_t>(m.clearances[c].joint)];
+  };
   for (std::size_t c = 0; c < m.clearances.size(); ++c) {
-    const JointDescription& joint = m.joints[static_cast<std::size_t>(m.clearances[c].joint)];
-    if (const auto warning = turn_warning(joint.name, m.clearances[c], joint.type, parameters.clearance[c]))
-      result.warnings.push_back(*warning);
+    const ClearanceParameters& p = parameters.clearance[c];
+    if (const auto warning = turn_warning(joint_of(c).name, m.clearances[c], joint_of(c).type, p))
+      warnings.push_back(*warning);
   }
-  for (std::size_t c = 0; c < result.contact.size(); ++c)
-    if (const auto warning = range_warning(result.contact[c].joint, mechanism.description().clearances[c].contact_law,
-                                           parameters.clearance[c], result.contact[c].max_force))
-      result.warnings.push_back(*warning);
+  for (std::size_t c = 0; c < loads.size(); ++c)
+    if (const auto warning =
+            range_warning(joint_of(c).name, m.clearances[c].contact_law, parameters.clearance[c], loads[c]))
+      warnings.push_back(*warning);
+  return warnings;
+}
+
+void add_range_warnings(const Mechanism& mechanism, const Parameters& parameters, RunResult& result) {
+  std::vector<double> loads;
+  for (const ContactSummary& contact : result.contact) loads.push_back(contact.max_force);
+  for (std::string& one : range_warnings(mechanism, parameters, loads)) result.warnings.push_back(std::move(one));
 }
 
 }  // namespace boresight::app

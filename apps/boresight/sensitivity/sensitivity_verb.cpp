@@ -12,7 +12,7 @@
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
-#include "results/start_warnings.hpp"
+#include "results/study_warnings.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
 #include "sensitivity/sensitivity_report.hpp"
@@ -126,7 +126,7 @@ class SensitivityVerb : public Verb {
       if (r.number % every == 0 && r.outcome.status == Outcome::Status::done) result.shown.push_back(r);
     });
     result.warnings = warnings_of(result);
-    for (const std::string& one : start_warnings(*mechanism, choice.name)) result.warnings.push_back(one);
+    for (const std::string& one : study_warnings(*mechanism, choice.name)) result.warnings.push_back(one);
     if (!stuck.empty()) result.warnings.push_back(stuck);
     if (!store.damage().empty()) result.warnings.push_back(store.damage());
     write(result, own, watch, store.earlier());

@@ -44,6 +44,20 @@ TEST_F(MonteCarloProgram, WritesSummaryReportStoreAndCsv) {
   EXPECT_THAT(text("out/report.html"), HasSubstr("How sure the numbers are"));
 }
 
+TEST_F(MonteCarloProgram, WarnsOfALawOutsideOfItsRange) {
+  write("study.toml", "format = 1\nmechanism = \"" + mechanism_ +
+                          "\"\n[[random]]\nparameter = \"clearance.F1.contact.restitution\"\n"
+                          "distribution = { uniform = { min = 0.7, max = 0.95 } }\n[montecarlo]\nsamples = 20\n");
+  const auto warnings_at = [&](const std::string& radial) {
+    const Ended ended = call(quick("study.toml", radial, {"--set", "clearance.F1.radial=" + radial}));
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return json(radial + "/summary.json")["warnings"];
+  };
+  const auto of_range = HasSubstr("flores is used outside of its range");
+  EXPECT_THAT(warnings_at("20um"), testing::Contains(of_range));
+  EXPECT_THAT(warnings_at("0.2mm"), testing::Each(testing::Not(of_range)));
+}
+
 TEST_F(MonteCarloProgram, AnyNumberOfThreadsGivesTheSameTable) {
   EXPECT_EQ(csv_of("study.toml", "one", {"--jobs", "1"}), csv_of("study.toml", "two", {"--jobs", "2"}));
 }

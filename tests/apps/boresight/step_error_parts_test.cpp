@@ -73,7 +73,8 @@ TEST(StepErrors, ManyTimesWhatIsFoundAreNoPercentages) {
     EXPECT_THAT(step_error_sentence(off_by(1e-2, 0.0), indices(index, 0.0), kMaximum, 1.0),
                 AllOf(HasSubstr("times the value itself of what smaller steps give"), Not(HasSubstr("%"))));
     EXPECT_THAT(model_error_said(left_out(times, indices(1e-4, 0.0)), kMaximum, 1.0).sentence,
-                AllOf(HasSubstr("times what it finds"), Not(HasSubstr("e+"))));
+                AllOf(HasSubstr("by a factor of " + std::string(times < 1e4 ? "1001," : "10000 or more,")),
+                      Not(HasSubstr("e+"))));
   }
 }
 
@@ -92,6 +93,9 @@ TEST(StatedErrorText, IsOfTheFigureBesideIt) {
   EXPECT_EQ(stated_error_text(measured, result, kMaximum, 1.0), "± 2 %");
   EXPECT_EQ(stated_error_text(measured, result, kTurn, 1.0), "± 38 %");
   EXPECT_EQ(stated_error_text(off_by(2e-3, 0.0), result, kMaximum, 1.0), "± 20 times it");
+  // What a bound of 45 um allows where the journals move by a hundredth of it is not 45 um and a hundred times more.
+  EXPECT_EQ(stated_error_text(off_by(0.0, 0.0), left_out(99.0, indices(4.5e-5, 0.0)), kMaximum, 1.0),
+            "within a factor of 100");
 }
 TEST(StatedErrorText, HoldsWhatTheRungLeavesOutToo) {
   EXPECT_EQ(stated_error_text(off_by(2e-6, 0.0), left_out(0.1, indices(1e-4, 0.0)), kMaximum, 1.0), "± 12 %");
@@ -122,7 +126,7 @@ TEST(ModelErrorSaid, IsASentenceToATenthAndAWarningBeyond) {
   const ModelErrorSaid much = model_error_said(left_out(0.39, indices(1e-4, 0.0)), kMaximum, 1.0);
   EXPECT_THAT(much.warning, AllOf(HasSubstr("about 39 % of it"), HasSubstr("--rung multibody")));
   const ModelErrorSaid many = model_error_said(left_out(82.0, indices(1e-4, 0.0)), kMaximum, 1.0);
-  EXPECT_THAT(many.warning, HasSubstr("up to 82 times what it finds"));
+  EXPECT_THAT(many.warning, HasSubstr("off by a factor of 83, up or down"));
   const ModelErrorSaid all = model_error_said(left_out(1.3, indices(1e-4, 0.0)), kMaximum, 1.0);
   EXPECT_THAT(all.warning, AllOf(HasSubstr("up to the whole of it"), Not(HasSubstr("300"))));
 }
