@@ -6,7 +6,7 @@
 
 namespace boresight {
 
-enum class MomentAbout { insert, seat };  // the centre of
+enum class MomentAbout { insert, seat, insert_as_couples };  // the centre of; the last one as couples_of() it
 
 // Rows: the force on the insert, then its moment. Columns: the numbers of the motion; those that the wrench does not hang on
 // (JointPlay::inputs) are left zero.
@@ -14,10 +14,10 @@ using ContactJacobian = Eigen::Matrix<double, 6, kMotionNumbers>;
 void contact_jacobian(const JointPlay& law, const PlayMotion<double>& motion,
                       const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, ContactJacobian& out);
 
-// The columns of e, slope and roll alone, of an insert at rest.
-using OffsetJacobian = Eigen::Matrix<double, 6, kMostOffsets>;
+// Of an insert at rest: how the loads on its offsets, forces and couples, change with these. Symmetric where the contact is elastic.
+using OffsetJacobian = Eigen::Matrix<double, kMostOffsets, kMostOffsets>;
 void offset_jacobian(const JointPlay& law, const PlayMotion<double>& at_rest,
-                     const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, OffsetJacobian& out);
+                     const std::array<double, kContactPlaces>& impact_speed, OffsetJacobian& out);
 
 inline Eigen::Matrix<double, kMotionNumbers, 1> numbers(const PlayMotion<double>& m) {
   Eigen::Matrix<double, kMotionNumbers, 1> all;

@@ -14,7 +14,8 @@
 // K, KT<double> with what is asked of a joint and not of every lane:
 //   K(description, joint type, parameters)
 //   places()                        the contacts it can have
-//   inputs()                        which numbers of the motion its wrench hangs on
+//   inputs()                        which numbers of the motion its wrench hangs on, one of
+//   kInputs                         those that such a kind may hang on
 //   elastic_energy(motion)          of all contacts [J]
 //   elastic_only()                  the same without what dissipates and rubs
 //   tangent(motion)                 ContactTangent

@@ -90,6 +90,18 @@ Vec3T<M> roll_axis(const PlayMotion<M>& m) {
   return {share * m.slope[0], M(1.0), share * m.slope[1]};
 }
 
+// The couples on slopes and roll (x, z, roll) whose moment this is, about the insert's centre: how moment_of_couple() and roll_axis() made it. Of a
+// moment that works along the axis only by the roll.
+template <typename M>
+Vec3T<M> couples_of(const Vec3T<M>& moment, const PlayMotion<M>& m) {
+  using std::sqrt;
+  const Vec3T<M> along(m.slope[0], M(1.0), m.slope[1]);
+  const M square = along.squaredNorm(), on_roll = along.dot(moment) / sqrt(square);
+  const Vec3T<M> of_slopes = moment - on_roll * roll_axis(m);
+  const Vec3T<M> couple = of_slopes.cross(along) / square;
+  return {couple[0], couple[2], on_roll};
+}
+
 // What a law fills in of a contact: everything where it is kept, nothing where only the load is asked for.
 template <typename T>
 void keep_contact(PlayLoad<T>&, ContactPlace, const ContactState<T>&) {}

@@ -109,8 +109,9 @@ void RestingBalance::read(const double* row) {
     }
     // Where a journal of a joint that slides comes to along its axis decides where its ends push.
     if (joint.slides == 1) G.row(1) = V.row(1);
-    for (int i = 0; i < joint.spins; ++i)
-      V.row(3 + (joint.spins == 3 ? i : 1)) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.spin_gain + i * n, n);
+    // Elastic contact makes no other moments than couples on slopes and roll. By the angular velocity instead, which is theirs in the middle of
+    // the play alone, a load would push where nothing does.
+    V.bottomRows(3) = G.bottomRows(3);
   }
 }
 
@@ -159,8 +160,8 @@ VecX RestingBalance::left(const VecX& offsets) const {
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     const PlayMotion<double> motion = motion_of(c, z);
     joints_[c].wrench(motion, kSlowImpacts, wrench);
-    Vec6 load;
-    load << wrench.force, wrench.moment - motion.e.cross(wrench.force);
+    PlayOffsets load;
+    load << wrench.force, couples_of(Vec3(wrench.moment - motion.e.cross(wrench.force)), motion);
     F.noalias() += works_on_[c].transpose() * load;
   }
   return reaction_ + balanceable(F);
@@ -182,7 +183,7 @@ MatX RestingBalance::stiffness_at(const std::vector<PlayMotion<double>>& journal
     still.e_dot.setZero();
     still.w.setZero();
     still.slope_rate.setZero();
-    offset_jacobian(joints_[c], still, kSlowImpacts, MomentAbout::insert, of_offsets);
+    offset_jacobian(joints_[c], still, kSlowImpacts, of_offsets);
     by_z.noalias() += works_on_[c].transpose() * (of_offsets * offsets_of_[c]);
   }
   return with_offsets_.transpose() * by_z * with_offsets_;

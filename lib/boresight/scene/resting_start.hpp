@@ -106,7 +106,7 @@ class RestingBalance {
   std::vector<PlayOffsets> widths_;  // per joint: what each offset crosses its clearance with
   std::vector<MatX> offsets_of_;     // per joint: 5 x n, offsets per coordinate
   std::vector<MatX> over_widths_;    // the same over the widths, of coordinates that the balance may move
-  std::vector<MatX> works_on_;       // per joint: 6 x n, the rates that force and moment work on
+  std::vector<MatX> works_on_;       // per joint: 6 x n, the offsets that force and couples work on
   std::vector<double> slide_;
   std::vector<PlayOffsets> shift_;  // what standing errors leave of the offsets with all coordinates zero
   double load_ = 0.0, widest_ = 0.0, cancelled_ = 0.0;

@@ -114,7 +114,8 @@ struct BallInSocket : BallInSocketT<double> {
 
   // As play_kind.hpp asks.
   std::vector<ContactPlace> places() const { return {ContactPlace::radial}; }
-  MotionInputs inputs() const { return MotionInputs::turning; }
+  static constexpr std::array kInputs = {MotionInputs::turning};
+  MotionInputs inputs() const { return kInputs[0]; }
   double elastic_energy(const PlayMotion<double>& motion) const;
   BallInSocket elastic_only() const;
   ContactTangent tangent(const PlayMotion<double>& motion) const;

@@ -191,7 +191,8 @@ struct SliderInGuide : SliderInGuideT<double> {
 
   // As play_kind.hpp asks.
   std::vector<ContactPlace> places() const;
-  MotionInputs inputs() const { return tilts ? MotionInputs::rolling : MotionInputs::parallel; }
+  static constexpr std::array kInputs = {MotionInputs::parallel, MotionInputs::rolling};
+  MotionInputs inputs() const { return kInputs[tilts ? 1 : 0]; }
   double elastic_energy(const PlayMotion<double>& motion) const;
   // What the elastic contacts push the offsets by [N, N m].
   PlayOffsets elastic_force(const PlayMotion<double>& motion) const;

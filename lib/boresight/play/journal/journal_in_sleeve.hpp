@@ -101,7 +101,8 @@ struct JournalInSleeve : JournalInSleeveT<double> {
 
   // The rest is what play_kind.hpp asks of a kind.
   std::vector<ContactPlace> places() const;
-  MotionInputs inputs() const { return tilts ? MotionInputs::tilting : MotionInputs::parallel; }
+  static constexpr std::array kInputs = {MotionInputs::parallel, MotionInputs::tilting};
+  MotionInputs inputs() const { return kInputs[tilts ? 1 : 0]; }
   double elastic_energy(const PlayMotion<double>& motion) const;
   JournalInSleeve elastic_only() const;
   ContactTangent tangent(const PlayMotion<double>& motion) const;

@@ -132,7 +132,8 @@ struct PadInSlot : PadInSlotT<double> {
 
   // As play_kind.hpp asks.
   std::vector<ContactPlace> places() const { return {ContactPlace::axial_minus, ContactPlace::axial_plus}; }
-  MotionInputs inputs() const { return tilts ? MotionInputs::tilting : MotionInputs::parallel; }
+  static constexpr std::array kInputs = {MotionInputs::parallel, MotionInputs::tilting};
+  MotionInputs inputs() const { return kInputs[tilts ? 1 : 0]; }
   double elastic_energy(const PlayMotion<double>& motion) const;
   PadInSlot elastic_only() const;
   ContactTangent tangent(const PlayMotion<double>& motion) const;
