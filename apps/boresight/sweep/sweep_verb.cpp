@@ -10,6 +10,7 @@
 #include "boresight_analyses/sweep/sweep_keys.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
+#include "report_parts/step_error_parts.hpp"
 #include "results/assumed.hpp"
 #include "results/motion_claims.hpp"
 #include "results/report_files.hpp"
@@ -28,7 +29,7 @@ namespace {
 // the memory.
 constexpr std::size_t kMostPointsWithHistories = 8;
 
-Json point_json(const SweepPlan& plan, const SweepPoint& p) {
+Json point_json(const Study& study, const SweepPlan& plan, const SweepPoint& p) {
   Json parameters = Json::object();
   for (std::size_t i = 0; i < plan.axes.size(); ++i)
     for (const std::string& path : plan.axes[i].parameters) parameters[path] = p.values[i];
@@ -39,13 +40,17 @@ Json point_json(const SweepPlan& plan, const SweepPoint& p) {
     json["contact"] = contact_json(p.result.contact);
     json["platform_acceleration_max"] = vector_json(p.result.platform_acceleration_max);
     json["constraint_drift"] = p.result.constraint_drift;
+    json["error_estimate"] = {{"model", number_json(p.result.error.model_of(study.index.kind()))},
+                              {"of", study.index.quantity + "." + study.index.statistic},
+                              {"basis", p.result.error.basis}};
     json["warnings"] = p.result.warnings;
     json["cpu_seconds"] = p.result.cost.cpu_seconds;
   }
   return json;
 }
 
-void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mechanism, const SweepResult& result) {
+void write_sweep(std::ostream& out, const Study& study, const SweepPlan& plan, const Mechanism& mechanism,
+                 const SweepResult& result) {
   std::string header = "point";
   for (const SweepAxis& axis : plan.axes)
     for (const std::string& path : axis.parameters) header += "," + csv_field(path);
@@ -57,7 +62,7 @@ void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mech
     for (const char* name : {"contact_fraction", "impacts", "max_penetration", "max_force", "max_impact_speed",
                              "impact_speed_above_validity"})
       header += "," + csv_field(joint_of_clearance(mechanism, c) + "." + name);
-  out << header << ",status\n";
+  out << header << ",status,model_error\n";
 
   for (std::size_t k = 0; k < result.points.size(); ++k) {
     const SweepPoint& p = result.points[k];
@@ -84,7 +89,9 @@ void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mech
       add(s.max_impact_speed);
       add(static_cast<double>(s.impact_speed_above_validity));
     }
-    out << row << ',' << csv_field(to_string(p.status)) << '\n';
+    row += ',' + csv_field(to_string(p.status));
+    add(p.result.error.model_of(study.index.kind()));
+    out << row << '\n';
   }
 }
 
@@ -161,11 +168,15 @@ class SweepVerb : public Verb {
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
     SweepResult result = run_sweep(*rung, *mechanism, plan, options);
     for (std::size_t k = 0; k < result.points.size(); ++k)
-      if (SweepPoint& p = result.points[k]; p.status == SweepPoint::Status::done)
+      if (SweepPoint& p = result.points[k]; p.status == SweepPoint::Status::done) {
         add_range_warnings(*mechanism, plan.parameters_at(*mechanism, k), p.result);
+        if (const ModelErrorSaid said = model_error_said(p.result, study.index, mechanism->characteristic_length());
+            !said.warning.empty())
+          p.result.warnings.push_back(said.warning);
+      }
 
     write_json(out, "summary.json", summary_of(own, study, choice, plan, result, watch, begun.results->earlier()));
-    out.write("sweep.csv", [&](std::ostream& s) { write_sweep(s, plan, *mechanism, result); });
+    out.write("sweep.csv", [&](std::ostream& s) { write_sweep(s, study, plan, *mechanism, result); });
     write_report(out, sweep_report(command, study, *mechanism, choice, rung->leaves_out(), plan, result));
     out.publish();
     begun.results.reset();
@@ -224,7 +235,7 @@ class SweepVerb : public Verb {
         {"quantity", study.index.quantity}, {"statistic", study.index.statistic}, {"values", Json::array()}};
     json["points"] = Json::array();
     for (const SweepPoint& p : result.points) {
-      json["points"].push_back(point_json(plan, p));
+      json["points"].push_back(point_json(study, plan, p));
       json["index"]["values"].push_back(p.status == SweepPoint::Status::done ? Json(study.index.of(p.result.index))
                                                                              : Json());
     }

@@ -57,5 +57,25 @@ TEST_F(SweepProgram, TellsWhatItsPointsWarnOfOnce) {
   EXPECT_THAT(checked.out, HasSubstr("to first order in its gaps"));
 }
 
+// Where a rung leaves out much of a point, the point says so as a run of it does.
+TEST_F(SweepProgram, WarnsOfWhatItsRungLeavesOutOfAPoint) {
+  const std::string crank = std::string(BORESIGHT_EXAMPLES) + "/flores-slider-crank/flores-slider-crank.toml";
+  write("study.toml",
+        "format = 1\nmechanism = \"" + crank +
+            "\"\n[[sweep.axis]]\nparameter = \"clearance.B.radial\"\nvalues = [\"0.4 mm\", \"0.5 mm\"]\n");
+  const Ended ended =
+      call({"sweep", "study.toml", "--out", "out", "--rung", "quasistatic", "--set", "motion.duration=20ms"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const Ended run = call({"run", crank, "--rung", "quasistatic", "--set", "motion.duration=20ms", "--set",
+                          "clearance.B.radial=0.4mm", "--out", "run"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto point = json("out/summary.json")["points"][0], alone = json("run/summary.json");
+  EXPECT_GT(point["error_estimate"]["model"].get<double>(), 0.1);
+  EXPECT_EQ(point["error_estimate"]["model"], alone["error_estimate"]["model"]);
+  EXPECT_THAT(point["warnings"], Contains(HasSubstr("by its own estimate")));
+  EXPECT_THAT(ended.out + ended.err, HasSubstr("by its own estimate"));
+  EXPECT_THAT(text("out/sweep.csv"), HasSubstr(",status,model_error\n"));
+}
+
 }  // namespace sweep_program_test
 }  // namespace boresight::app
