@@ -14,6 +14,7 @@
 #include "results/assumed.hpp"
 #include "results/motion_claims.hpp"
 #include "results/report_files.hpp"
+#include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
 #include "sweep/sweep_report.hpp"
