@@ -226,6 +226,18 @@ function axisLayout(axis, colors, isCategory, title, values) {
   return layout;
 }
 
+// What differs by rounding alone is level: left to itself, the axis would stretch rounding over the whole chart, or reach from -1 to 1. Bars, boxes and
+// areas have axes from zero on.
+function levelRange(chart) {
+  const rounding = 1e-9, margin = 0.05;
+  const series = chart.series ?? [];
+  const curves = series.every((one) => !["bars", "histogram", "box", "area"].includes(one.style) && !one.error_low && !one.error_high);
+  if (!curves || chart.heatmap || chart.equal_axes || chart.y.log || chart.y.range || !series.some((one) => one.y?.length)) return chart.y.range;
+  const [least, most] = extent(chart, "y");
+  const size = Math.max(Math.abs(least), Math.abs(most));
+  return size > 0 && Number.isFinite(size) && most - least <= rounding * size ? [least - margin * size, most + margin * size] : undefined;
+}
+
 // options: width, panel (small multiple), themeName, titled (for pictures: with title and legend)
 export function figure(chart, entries, { width, panel = false, themeName = theme(), titled = false }) {
   const colors = ground(themeName);
@@ -264,7 +276,7 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
     width, height, autosize: false, margin: { l: 48, r: panel ? 14 : 20, t: top, b: 46 + 15 * (xTitle.length - 1), pad: 0 },
     paper_bgcolor: colors.surface, plot_bgcolor: colors.surface, font: { family: font, color: colors.ink, size: 12 },
     xaxis: { ...axisLayout(chart.x, colors, names.x, xTitle.join("<br>"), values("x")) },
-    yaxis: { ...axisLayout(chart.y, colors, names.y, "", values("y")), showspikes: false },
+    yaxis: { ...axisLayout({ ...chart.y, range: levelRange(chart) }, colors, names.y, "", values("y")), showspikes: false },
     shapes, annotations, showlegend: false, barmode: types.has("histogram") || (chart.series ?? []).some((series) => series.style === "bars" && series.y_low) ? "overlay" : "group", bargap: types.has("histogram") ? 0.02 : 0.3, boxmode: "group",
     hovermode: lines ? "x unified" : "closest", hoverdistance: 40,
     hoverlabel: { bgcolor: colors.surface, bordercolor: colors.axis, font: { color: colors.ink, size: 12, family: font }, namelength: -1 },

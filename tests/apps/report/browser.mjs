@@ -177,6 +177,11 @@ async function interaction() {
   const span = await page.evaluate(() => { const [from, to] = document.querySelector('figure[aria-label="Position error of the platform"] .plot-area')._fullLayout.xaxis.range; return to - from; });
   expect(span > 0.2 && span < 0.4, `${label}: dragging zooms to what was dragged over, found ${span}`);
 
+  await page.locator('figure[aria-label="Error of what rests"]').scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => document.querySelector('figure[aria-label="Error of what rests"] .plot-area')._fullLayout);
+  const level = await page.evaluate(() => document.querySelector('figure[aria-label="Error of what rests"] .plot-area')._fullLayout.yaxis.range.map((v) => v.toFixed(4)).join());
+  expect(level === "0.0950,0.1050", `${label}: rounding is drawn level, found the range ${level}`);
+
   // Keyboard: every stop of the tab key is visible, and there are no traps.
   await page.reload();
   await page.evaluate(() => window.__boresightReady);

@@ -195,9 +195,12 @@ Section maps() {
                    .y = over(t, [](double) { return 4e-4; }),
                    .style = Style::dash,
                    .hidden = true}};
+  Chart level{.title = "Error of what rests", .x = {"Time", "s"}, .y = {"Error", "µm"}, .height = 260};
+  level.series = {
+      {.name = "rounding apart", .x = t, .y = over(t, [](double s) { return 0.1 + 1e-15 * std::sin(20 * s); })}};
   return {.id = "maps",
           .title = "Maps and distributions",
-          .items = {error_map, correlation, sobol, distribution, boxes, steps}};
+          .items = {error_map, correlation, sobol, distribution, boxes, steps, level}};
 }
 
 Section words() {
