@@ -123,11 +123,10 @@ ModelErrorSaid model_error_said(const RunResult& result, const IndexChoice& of, 
   const bool nothing = is_nothing(of.of(result.index), of, size);
   if (result.error.basis.empty() || !(share > kOfRounding) || (nothing && share < kManyTimes)) return {};
   const std::string rung = "the " + result.rung + " rung", left_out = "what " + rung + " leaves out is ";
-  const std::string about = nothing       ? left_out + "far more than it finds"
-                            : share < 1.0 ? left_out + "about " + readable_share(share) + " of it"
-                            : share < kManyTimes
-                                ? left_out + "anything up to the whole of it"
-                                : rung + " may be off by a factor of " + factor_text(share) + ", up or down";
+  const std::string about = nothing              ? left_out + "far more than it finds"
+                            : share < 1.0        ? left_out + "about " + readable_share(share) + " of it"
+                            : share < kManyTimes ? left_out + "anything up to the whole of it"
+                                                 : rung + " may be off by a factor of " + factor_text(share);
   ModelErrorSaid said{of.title() + ": " + about + ", by its own estimate", ""};
   if (share > kMuch) said.warning = said.sentence + "; --rung multibody leaves nothing of that out";
   return said;
