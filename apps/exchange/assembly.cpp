@@ -293,7 +293,9 @@ class Assembler {
           throw InputError(kCommandLine, "--drive", name + ", a " + to_string(joint->type) + " joint",
                            "a revolute or prismatic joint");
         joint->driven = true;
-        result_.drives[joint->name] = course;
+        // By its name in the file and by that in the mechanism.
+        if (!result_.drives.emplace(joint->name, course).second)
+          throw InputError(kCommandLine, "--drive", "\"" + joint->name + "\" twice", "each joint once");
       }
     } else {
       if (!drawing_.drives.empty()) result_.assumed.push_back({0, drawing_.drives});

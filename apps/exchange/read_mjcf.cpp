@@ -1,5 +1,6 @@
 #include "boresight/mechanism/error.hpp"
 #include "exchange/readers.hpp"
+#include "exchange/utf8.hpp"
 
 #ifndef BORESIGHT_HAS_MUJOCO
 
@@ -48,7 +49,7 @@ class MjcfReader {
 
   Drawing read() {
     const mjModel& m = *model_;
-    drawing_.name = m.names;  // the model's comes first
+    drawing_.name = name_of(0, "");  // the model's comes first
     // What flags switch off is not there, whatever stands elsewhere.
     const auto off = [&m](int flags) { return (m.opt.disableflags & flags) != 0; };
     drawing_.gravity = off(mjDSBL_GRAVITY) ? Vec3(Vec3::Zero()) : vec3(m.opt.gravity);
@@ -81,6 +82,8 @@ class MjcfReader {
 
   std::string name_of(int address, const std::string& otherwise) const {
     const std::string name = model_->names + address;
+    if (const std::size_t at = first_byte_not_utf8(name); at != std::string::npos)
+      throw InputError({drawing_.file, 0}, "name", byte_in_words(name[at]), "UTF-8: save the file as that");
     return name.empty() ? otherwise : name;
   }
   std::string body_name(int body) const { return name_of(model_->name_bodyadr[body], fmt::format("body{}", body)); }

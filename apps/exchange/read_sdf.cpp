@@ -3,28 +3,14 @@
 #include <array>
 #include <charconv>
 #include <map>
-#include <set>
 
 #include "boresight/mechanism/error.hpp"
 #include "exchange/readers.hpp"
+#include "exchange/sdf_frames.hpp"
 #include "exchange/xml_element.hpp"
 
 namespace boresight::app {
 namespace {
-
-// A pose as it is written: in what, and about which element.
-Placement raw_pose(const XmlElement& pose) {
-  const std::vector<double> v = pose.content_numbers();
-  if (v.empty()) return {};
-  const std::string format = pose.text("rotation_format", "euler_rpy");
-  if (format == "quat_xyzw") {
-    if (v.size() != 7) pose.fail("pose", "\"" + pose.content() + "\"", "seven numbers");
-    return {turned_by(v[6], v[3], v[4], v[5]), {v[0], v[1], v[2]}};
-  }
-  if (v.size() != 6) pose.fail("pose", "\"" + pose.content() + "\"", "six numbers: x y z roll pitch yaw");
-  const bool degrees = pose.text("degrees", "false") == "true" || pose.text("degrees", "false") == "1";
-  return {turned_by(Vec3(v[3], v[4], v[5]) * (degrees ? EIGEN_PI / 180.0 : 1.0)), {v[0], v[1], v[2]}};
-}
 
 // "1.5" -> {1, 5}.
 std::pair<int, int> version_of(const XmlElement& sdf) {
@@ -38,8 +24,7 @@ std::pair<int, int> version_of(const XmlElement& sdf) {
   return {major, minor};
 }
 
-// One model: its frames, and the parts and joints that they place. Frames are known by their name in this model; those of a model
-// in it as MODEL::NAME.
+// Models: the parts and joints that their frames place.
 class SdfReader {
  public:
   SdfReader(const XmlElement& root, const std::string& filename) : root_(root) {
@@ -78,17 +63,8 @@ class SdfReader {
   }
 
  private:
-  // A named frame: where it is written, and in which other one.
-  struct Frame {
-    XmlElement element;
-    std::string in;  // "__model__" or another frame's name
-    Placement X;
-    bool placed = false;
-    bool in_work = false;
-    Placement X_M;  // in the model
-  };
   struct Model {
-    std::map<std::string, Frame> frames;
+    SdfFrames frames;
     std::string prefix;  // of its parts' names
     Placement X_WM;
   };
@@ -118,9 +94,7 @@ class SdfReader {
   // outer: the name of the model that this one stands in, of a nested one; prefix: of its parts' names.
   void add_model(const XmlElement& element, const std::string& outer, const std::string& prefix, const Placement& X_WO,
                  bool with_pose) {
-    Model model;
-    model.prefix = prefix.empty() ? "" : prefix + "::";
-    model.X_WM = X_WO;
+    Model model{SdfFrames(element), prefix.empty() ? "" : prefix + "::", X_WO};
     if (with_pose)
       if (const auto pose = element.child("pose")) {
         if (!pose->text("relative_to", "").empty() && outer.empty())
@@ -129,7 +103,7 @@ class SdfReader {
       }
     if (element.has("placement_frame"))
       element.fail("model.placement_frame", "a placement frame", "a model placed by its own frame");
-    collect_frames(element, model);
+    model.frames.check_canonical_link();
     for (const XmlElement& link : element.children("link")) add_link(link, model);
     for (const XmlElement& inner : element.children("model")) add_nested(inner, model);
     for (const XmlElement& include : element.children("include")) left_include(include);
@@ -140,48 +114,6 @@ class SdfReader {
     read_drives(element, model);
   }
 
-  void collect_frames(const XmlElement& element, Model& model) {
-    for (const char* tag : {"link", "joint", "frame", "model"})
-      for (const XmlElement& named : element.children(tag)) {
-        const std::string name = named.text("name");
-        const auto pose = named.child("pose");
-        std::string in = pose ? pose->text("relative_to", pose->text("frame", "")) : "";
-        if (in.empty() && named.tag() == "joint") in = named.needed("child").content();
-        if (in.empty() && named.tag() == "frame") in = named.text("attached_to", "");
-        if (in.empty()) in = "__model__";
-        const Placement X = pose ? raw_pose(*pose) : Placement();
-        if (!model.frames.emplace(name, Frame{named, in, X, false, false, Placement()}).second)
-          named.fail(named.tag() + ".name", "\"" + name + "\" a second time", "a name of its own");
-      }
-  }
-
-  // Of the frame of this name in the model.
-  Placement frame_in_model(Model& model, const std::string& name, const XmlElement& asks, const std::string& key) {
-    if (name == "__model__" || name.empty()) return {};
-    const auto found = model.frames.find(name);
-    if (found == model.frames.end()) {
-      // A frame of a model in this one, whether that has been read or not.
-      const std::size_t end = name.find("::");
-      const auto inner = model.frames.find(name.substr(0, end));
-      if (end != std::string::npos && inner != model.frames.end() && inner->second.element.tag() == "model") {
-        Model of_it;
-        collect_frames(inner->second.element, of_it);
-        return frame_in_model(model, inner->first, asks, key) * frame_in_model(of_it, name.substr(end + 2), asks, key);
-      }
-      std::vector<std::string> names;
-      for (const auto& [known, frame] : model.frames) names.push_back(known);
-      asks.fail(key, "\"" + name + "\"", "the name of a frame, link or joint", nearest_name(name, names));
-    }
-    Frame& frame = found->second;
-    if (frame.placed) return frame.X_M;
-    if (frame.in_work)
-      frame.element.fail("pose.relative_to", "frames that go in a circle", "frames that end at the model");
-    frame.in_work = true;
-    frame.X_M = frame_in_model(model, frame.in, frame.element, "pose.relative_to") * frame.X;
-    frame.placed = true;
-    return frame.X_M;
-  }
-
   void add_link(const XmlElement& link, Model& model) {
     const std::string name = link.text("name");
     if (drawing_.parts.size() == kMostParts)
@@ -189,7 +121,7 @@ class SdfReader {
     Part part;
     part.name = model.prefix + name;
     part.origin = link.origin();
-    part.X_WP = model.X_WM * frame_in_model(model, name, link, "link.name");
+    part.X_WP = model.X_WM * model.frames.placement(name, link, "link.name");
     double mass = 1.0;
     Mat3 inertia = Mat3::Identity();
     Placement X_PC;
@@ -200,7 +132,7 @@ class SdfReader {
         const std::string in = pose->text("relative_to", pose->text("frame", ""));
         X_PC = raw_pose(*pose);
         if (!in.empty())
-          X_PC = part.X_WP.inverse() * model.X_WM * frame_in_model(model, in, *pose, "pose.relative_to") * X_PC;
+          X_PC = part.X_WP.inverse() * model.X_WM * model.frames.placement(in, *pose, "pose.relative_to") * X_PC;
       }
       // Resolved by SDF's own library from shapes and densities, of which nothing is read here.
       if (inertial->text("auto", "false") == "true" || inertial->text("auto", "false") == "1")
@@ -240,36 +172,16 @@ class SdfReader {
 
   void add_nested(const XmlElement& inner, Model& model) {
     const std::string name = inner.text("name");
-    const Placement X_WM = model.X_WM * frame_in_model(model, name, inner, "model.name");
+    const Placement X_WM = model.X_WM * model.frames.placement(name, inner, "model.name");
     add_model(inner, model.prefix + name, model.prefix + name, X_WM, false);
   }
 
   // The part that a joint connects; a frame stands for the link that it is attached to.
   int part_connected(const XmlElement& joint, const std::string& tag, Model& model) {
     const XmlElement element = joint.needed(tag);
-    std::string name = element.content();
-    if (name == "world") return kGround;
-    for (int steps = 0; steps < 100; ++steps) {
-      const int part = part_named(drawing_, model.prefix + name);
-      if (part >= 0) return part;
-      const auto frame = model.frames.find(name);
-      if (frame == model.frames.end()) break;
-      // What a frame is attached to is not what its pose is given in: without a word it is the model's first link.
-      const XmlElement& named = frame->second.element;
-      if (named.tag() == "frame")
-        name = named.text("attached_to", "__model__");
-      else if (named.tag() == "joint")
-        name = named.needed("child").content();
-      else
-        break;
-      if (name == "__model__") {
-        const auto first = std::find_if(drawing_.parts.begin(), drawing_.parts.end(), [&](const Part& p) {
-          return p.name.size() > model.prefix.size() && p.name.compare(0, model.prefix.size(), model.prefix) == 0;
-        });
-        if (first == drawing_.parts.end()) break;
-        return static_cast<int>(first - drawing_.parts.begin());
-      }
-    }
+    const std::optional<std::string> link = model.frames.link_of(element.content());
+    if (link == "world") return kGround;
+    if (const int part = link ? part_named(drawing_, model.prefix + *link) : -1; part >= 0) return part;
     std::vector<std::string> names;
     for (const Part& part : drawing_.parts) names.push_back(part.name);
     element.fail("joint." + tag, "\"" + element.content() + "\"", "the name of a link, or world",
@@ -293,7 +205,7 @@ class SdfReader {
     made.first = part_connected(joint, "parent", model);
     made.second = part_connected(joint, "child", model);
     if (made.first == made.second) joint.fail("joint.child", "the link that is the parent, too", "another link");
-    const Placement X_MJ = frame_in_model(model, name, joint, "joint.name");
+    const Placement X_MJ = model.frames.placement(name, joint, "joint.name");
     made.p_WJ = (model.X_WM * X_MJ).p;
     if (made.type != JointType::fixed && made.type != JointType::spherical) {
       made.axis = axis_of(joint, "axis", X_MJ, model);
@@ -329,7 +241,7 @@ class SdfReader {
       if (const auto xyz = axis->child("xyz")) {
         given = xyz->content_vector();
         if (const std::string in = xyz->text("expressed_in", ""); !in.empty())
-          R_MA = frame_in_model(model, in, *xyz, "xyz.expressed_in").R;
+          R_MA = model.frames.placement(in, *xyz, "xyz.expressed_in").R;
       }
       if (const auto old = axis->child("use_parent_model_frame"); old && old->content_flag()) R_MA.setIdentity();
       if (axis->child("limit")) leave_out(*axis->child("limit"), "limits of joints: they go where [motion] says");

@@ -6,12 +6,25 @@
 #include <charconv>
 #include <cmath>
 
+#include "exchange/utf8.hpp"
+
 namespace boresight::app {
 namespace {
 
 std::string in_marks(const std::string& text) { return "\"" + text + "\""; }
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+// ISO-8859-1 of <?xml version="1.0" encoding="ISO-8859-1"?>; "" where the file declares none.
+std::string declared_encoding(const tinyxml2::XMLDocument& document) {
+  const tinyxml2::XMLNode* first = document.FirstChild();
+  if (first == nullptr || first->ToDeclaration() == nullptr) return "";
+  const std::string words = first->Value();
+  const std::size_t key = words.find("encoding");
+  const std::size_t begin = key == std::string::npos ? key : words.find_first_of("\"'", key);
+  const std::size_t end = begin == std::string::npos ? begin : words.find(words[begin], begin + 1);
+  return end == std::string::npos ? "" : words.substr(begin + 1, end - begin - 1);
+}
 
 }  // namespace
 
@@ -20,6 +33,8 @@ XmlElement::XmlElement(std::shared_ptr<const tinyxml2::XMLDocument> document, st
     : document_(std::move(document)), file_(std::move(file)), element_(element) {}
 
 XmlElement XmlElement::root_of(const std::string& text, const std::string& filename) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw InputError({filename, 1}, "", "a text in UTF-16", "one in UTF-8: save it as that");
   auto document = std::make_shared<tinyxml2::XMLDocument>();
   const auto fault = document->Parse(text.data(), text.size());
   if (fault == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED)
@@ -36,7 +51,7 @@ XmlElement XmlElement::root_of(const std::string& text, const std::string& filen
   return {std::move(document), std::make_shared<const std::string>(filename), root};
 }
 
-std::string XmlElement::tag() const { return element_->Name(); }
+std::string XmlElement::tag() const { return in_utf8("", element_->Name()); }
 Origin XmlElement::origin() const { return {*file_, element_->GetLineNum()}; }
 
 std::optional<XmlElement> XmlElement::child(const std::string& tag) const {
@@ -64,7 +79,7 @@ bool XmlElement::has(const std::string& attribute) const { return element_->Attr
 std::string XmlElement::text(const std::string& attribute) const {
   const char* found = element_->Attribute(attribute.c_str());
   if (found == nullptr) fail(tag() + "." + attribute, "nothing", "a value");
-  return found;
+  return in_utf8(tag() + "." + attribute, found);
 }
 
 std::string XmlElement::text(const std::string& attribute, const std::string& otherwise) const {
@@ -85,7 +100,7 @@ Vec3 XmlElement::vector(const std::string& attribute, const Vec3& otherwise) con
 
 std::string XmlElement::content() const {
   const char* found = element_->GetText();
-  std::string text = found == nullptr ? "" : found;
+  std::string text = found == nullptr ? "" : in_utf8(tag(), found);
   while (!text.empty() && is_space(text.back())) text.pop_back();
   while (!text.empty() && is_space(text.front())) text.erase(0, 1);
   return text;
@@ -111,6 +126,14 @@ Vec3 XmlElement::direction(const Vec3& given, const std::string& key) const {
 void XmlElement::fail(const std::string& key, const std::string& found, const std::string& expected,
                       const std::string& nearest) const {
   throw InputError(origin(), key, found, expected, nearest);
+}
+
+std::string XmlElement::in_utf8(const std::string& key, const std::string& text) const {
+  const std::size_t at = first_byte_not_utf8(text);
+  if (at == std::string::npos) return text;
+  const std::string encoding = declared_encoding(*document_);
+  fail(key, byte_in_words(text[at]) + " (the file declares " + (encoding.empty() ? "no encoding" : encoding) + ")",
+       "UTF-8: save the file as that");
 }
 
 double XmlElement::number_of(const std::string& key, const std::string& text) const {

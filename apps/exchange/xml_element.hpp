@@ -54,6 +54,8 @@ class XmlElement {
  private:
   XmlElement(std::shared_ptr<const tinyxml2::XMLDocument> document, std::shared_ptr<const std::string> file,
              const tinyxml2::XMLElement* element);
+  // What is read: the text, refused where it is not UTF-8. What is not read, comments among it, may be anything.
+  std::string in_utf8(const std::string& key, const std::string& text) const;
   double number_of(const std::string& key, const std::string& text) const;
   std::vector<double> numbers_of(const std::string& key, const std::string& text) const;
   Vec3 vector_of(const std::string& key, const std::string& text) const;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "boresight_analyses/statistics/binomial.hpp"
 #include "boresight_analyses/statistics/bonett.hpp"
 
 namespace boresight {
@@ -22,6 +23,26 @@ double student(double confidence, std::int64_t replicates) {
 
 double standard_error(const std::vector<double>& values) {
   return gsl_stats_sd(values.data(), 1, values.size()) / std::sqrt(double(values.size()));
+}
+
+// What shares of designs of `size` samples tell of the share that all of them have on the average, as it lies off their mean: shares of good
+// stratification take two neighbouring values k / size, and all of them the upper one more often than their scatter, which is none then, would say. Of how
+// many take the upper one, Clopper and Pearson (1934, Biometrika 26, 404-413) say how far between the two the average lies. Nothing where
+// shares lie farther apart: there they scatter.
+struct Between {
+  double below = 0.0, above = 0.0;  // the mean
+};
+Between between_neighbours(const std::vector<double>& shares, double size, double confidence) {
+  const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
+  constexpr double kOneStep = 1.5;
+  if ((*most - *least) * size > kOneStep) return {};
+  const auto n = static_cast<std::int64_t>(shares.size());
+  const std::int64_t upper = std::count(shares.begin(), shares.end(), *most);
+  const double seen = double(upper) / double(n);
+  const ProbabilityBounds bounds = clopper_pearson(upper, n, confidence);
+  const double below = seen - bounds.low;
+  // Where all are alike, they may be the lower ones as well.
+  return {below / size, (*least < *most ? bounds.high - seen : below) / size};
 }
 
 // p shifted by `shift` on the logit scale.
@@ -104,8 +125,11 @@ ReplicatedInterval ReplicatedSamples::quantile(double p, double confidence) cons
   // A share is read in steps of 1 / size: what rounding adds keeps a perfectly stratified design from an empty interval.
   const double error = std::hypot(standard_error(shares), 1.0 / (size * std::sqrt(12.0 * double(replicates()))));
   const double shift = student(confidence, replicates()) * error / (p * (1.0 - p));
-  const auto low = static_cast<std::int64_t>(std::floor(N * logit_shifted(p, -shift))) - failed();
-  const auto high = static_cast<std::int64_t>(std::floor(N * logit_shifted(p, shift))) + 1;
+  const Between between = between_neighbours(shares, size, confidence);
+  const double share_low = std::min(logit_shifted(p, -shift), p - between.below),
+               share_high = std::max(logit_shifted(p, shift), p + between.above);
+  const auto low = static_cast<std::int64_t>(std::floor(N * share_low)) - failed();
+  const auto high = static_cast<std::int64_t>(std::floor(N * share_high)) + 1;
   if (N * p >= kFewestBeyond && low >= 1) result.low = pooled_[low - 1];
   if (N * (1.0 - p) >= kFewestBeyond && high <= valued()) result.high = pooled_[high - 1];
   return result;
@@ -129,8 +153,9 @@ ReplicatedInterval ReplicatedSamples::probability_below(double limit, double con
   }
   const double rounding = 1.0 / (size * std::sqrt(12.0 * double(replicates())));
   const double shift = student(confidence, replicates()) * std::hypot(error, rounding) / (p * (1.0 - p));
-  result.low = logit_shifted(p, -shift);
-  result.high = logit_shifted(p, shift);
+  const Between between = between_neighbours(shares, size, confidence);
+  result.low = std::max(0.0, std::min(logit_shifted(p, -shift), p - between.below));
+  result.high = std::min(1.0, std::max(logit_shifted(p, shift), p + between.above));
   return result;
 }
 

@@ -56,7 +56,8 @@ void set_drives(ImportChoices& choices, const std::string& text) {
     if (name.empty() || course.empty())
       throw InputError({"command line", 0}, "--drive", "\"" + text + "\"",
                        "joints such as \"pan=0.5*sin(t); tilt\", or none");
-    choices.drives[name] = course;
+    if (!choices.drives.emplace(name, course).second)
+      throw InputError({"command line", 0}, "--drive", "\"" + name + "\" twice", "each joint once");
   }
 }
 
@@ -96,7 +97,8 @@ class ImportVerb : public Verb {
     choices.ground = ground_;
     choices.duration = duration_;
     Drawing drawing = read_drawing(command.file);
-    const std::string source = fs::path(command.file).filename().string() + " (" + drawing.format + ")";
+    // The file's name may hold bytes that no TOML may.
+    const std::string source = printable(fs::path(command.file).filename().string()) + " (" + drawing.format + ")";
     const Assembly assembly = assembled(std::move(drawing), choices);
     const std::string text = mechanism_text(assembly, source, duration_);
     const fs::path to = to_.empty() ? fs::path(fs::path(command.file).stem().string() + ".toml") : fs::path(to_);

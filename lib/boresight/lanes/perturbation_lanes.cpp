@@ -119,8 +119,12 @@ bool PerturbationLanes::serve(const Mechanism& mechanism) {
 }
 
 PerturbationLanes::PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity,
-                                     double start)
-    : mechanism_(std::move(mechanism)), quantity_(quantity), start_(start), cache_(std::make_unique<Cache>()) {
+                                     double start, std::vector<double> typical)
+    : mechanism_(std::move(mechanism)),
+      quantity_(quantity),
+      start_(start),
+      typical_errors_(std::move(typical)),
+      cache_(std::make_unique<Cache>()) {
   // A step takes a quarter of a radian of what is fastest in a motion that drives tell, as its own table has found it out.
   constexpr double kKnotsOfStep = 4.0;
   const auto prepared = prepared_for(mechanism_->parameters());
@@ -230,8 +234,8 @@ std::shared_ptr<const PerturbationLanes::ErrorsOverTime> PerturbationLanes::erro
   StandingColumns columns(*influence, mechanism_->boresight_body(), 3, [&](double t) {
     return gain_of_displacement(*mechanism_, ideal, quantity_, std::min(t, mechanism_->duration()));
   });
-  cache_->errors = std::make_shared<const ErrorsOverTime>(
-      ErrorsOverTime{influence, std::move(columns), StandingCurvature(*mechanism_, ideal, *influence, quantity_)});
+  cache_->errors = std::make_shared<const ErrorsOverTime>(ErrorsOverTime{
+      influence, std::move(columns), StandingCurvature(*mechanism_, ideal, *influence, quantity_, typical_errors_)});
   cache_->errors_scene = scene;
   return cache_->errors;
 }
@@ -368,6 +372,7 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
 
   auto batch = std::make_unique<Batch>();
   const auto flush = [&] {
+    if (watch.prepared) watch.prepared(batch->jobs.size(), listener.latest);
     target.kernel(batch->jobs.data(), static_cast<long>(batch->jobs.size()), settings, &outcomes[listener.first]);
     listener.first += batch->jobs.size();
     listener.before = listener.latest;
@@ -382,6 +387,7 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
       if (std::any_of(samples.begin(), samples.end(), has_errors))
         throw ComputationError("no play can move: samples of errors alone are GeometricErrors' to answer");
       std::fill(outcomes.begin(), outcomes.end(), LaneOutcome{.t = mechanism_->duration()});
+      if (watch.prepared) watch.prepared(samples.size(), 0.0);
       for (std::size_t i = 0; watch.ended && i < samples.size(); ++i) watch.ended(i, 0.0);
       return;
     }

@@ -38,6 +38,8 @@ struct LaneWatch {
   // Called as each sample's outcome is there, in the order in which they end, from the thread that called run(). attempts: steps
   // tried so far, of all samples together. What it throws leaves run().
   std::function<void(std::size_t sample, double attempts)> ended = {};
+  // Called before it, as so many samples are prepared and their motions begin; those prepared before have all ended by then.
+  std::function<void(std::size_t samples, double attempts)> prepared = {};
 };
 
 class PerturbationLanes {
@@ -45,8 +47,9 @@ class PerturbationLanes {
   // Whether all joints' play has lanes: journals with Hertz's geometry and any damping factor, modified Coulomb friction or none.
   static bool serve(const Mechanism& mechanism);
   // Throws ComputationError near a singular pose, as the rung does.
-  // start: the index's statistics leave out what comes before [s].
-  PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity, double start = 0.0);
+  // start: the index's statistics leave out what comes before [s]. typical: StandingCurvature.
+  PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity, double start = 0.0,
+                    std::vector<double> typical = {});
   ~PerturbationLanes();
 
   // tolerance: largest error of one step in an offset, relative to its clearance c, and in its rate, relative to the speed
@@ -76,6 +79,7 @@ class PerturbationLanes {
   std::shared_ptr<const Mechanism> mechanism_;
   PointingQuantity quantity_;
   double start_;
+  std::vector<double> typical_errors_;
   double longest_step_ = 0.0;  // across which loads and motion change little [s]
   struct Cache;
   std::unique_ptr<Cache> cache_;

@@ -110,7 +110,7 @@ struct GeometricErrors::Prepared {
   TimeWeights weights;
 
   Prepared(std::shared_ptr<const Mechanism> mechanism_of, PointingQuantity quantity_of, TimeStatistic statistic_of,
-           double start_of);
+           double start_of, const std::vector<double>& typical);
   std::vector<double> counted() const;
   Side square(const Side* x, std::size_t instant) const;
   double value(double square) const;
@@ -138,7 +138,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> parts(PointingQuantity quantity) {
 }  // namespace
 
 GeometricErrors::Prepared::Prepared(std::shared_ptr<const Mechanism> mechanism_of, PointingQuantity quantity_of,
-                                    TimeStatistic statistic_of, double start_of)
+                                    TimeStatistic statistic_of, double start_of, const std::vector<double>& typical)
     : mechanism(std::move(mechanism_of)),
       quantity(quantity_of),
       statistic(statistic_of),
@@ -148,7 +148,7 @@ GeometricErrors::Prepared::Prepared(std::shared_ptr<const Mechanism> mechanism_o
       columns(*influence, mechanism->boresight_body(), static_cast<int>(parts(quantity).rows()),
               [this](double) { return parts(quantity); }),
       values(columns.values),
-      curvature(*mechanism, commanded, *influence, quantity),
+      curvature(*mechanism, commanded, *influence, quantity, typical),
       weights({}) {
   const long instants = static_cast<long>(influence->cells()) * influence->instants_a_cell();
   for (long i = 0; i <= instants; ++i) {
@@ -306,8 +306,8 @@ bool GeometricErrors::serve(const Mechanism& mechanism) {
 }
 
 GeometricErrors::GeometricErrors(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity,
-                                 TimeStatistic statistic, double start)
-    : prepared_(std::make_unique<const Prepared>(std::move(mechanism), quantity, statistic, start)) {}
+                                 TimeStatistic statistic, double start, const std::vector<double>& typical)
+    : prepared_(std::make_unique<const Prepared>(std::move(mechanism), quantity, statistic, start, typical)) {}
 GeometricErrors::~GeometricErrors() = default;
 
 double GeometricErrors::operations() const {

@@ -34,8 +34,9 @@ class GeometricErrors {
   // Whether all freedoms are driven and there is no clearance: play that cannot move may still take errors up.
   static bool serve(const Mechanism& mechanism);
   // start: statistics leave out what comes before [s]. Throws ComputationError as StandingErrors does.
+  // typical: StandingCurvature.
   GeometricErrors(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity, TimeStatistic statistic,
-                  double start = 0.0);
+                  double start = 0.0, const std::vector<double>& typical = {});
   ~GeometricErrors();
 
   // outcomes: as many as samples. Returns how many were computed: fewer where `stop` was set.

@@ -32,7 +32,8 @@ double of_quantity(const PoseError& error, PointingQuantity quantity) {
 }  // namespace
 
 StandingCurvature::StandingCurvature(const Mechanism& mechanism, const IdealMotion& commanded,
-                                     const StandingErrors& influence, PointingQuantity quantity)
+                                     const StandingErrors& influence, PointingQuantity quantity,
+                                     const std::vector<double>& typical)
     : size_(static_cast<std::size_t>(influence.count()), 0.0) {
   Vec6 scale;
   scale << Vec3::Constant(1.0 / mechanism.characteristic_length()), Vec3::Ones();
@@ -58,11 +59,19 @@ StandingCurvature::StandingCurvature(const Mechanism& mechanism, const IdealMoti
     tried.error[e] = kTried / size_[e];
     look();
   }
+  std::vector<double> displaces(size_.size(), 0.0);
+  double sum_of_squares = 0.0, largest = 0.0;
+  for (const std::size_t e : acting) {
+    displaces[e] = typical.empty() ? 1.0 : std::abs(typical[e]) * size_[e];
+    sum_of_squares += displaces[e] * displaces[e];
+    largest = std::max(largest, displaces[e]);
+  }
+  // One alone has been looked at.
+  const bool together = sum_of_squares > (1.0 + 1e-9) * largest * largest;
   std::mt19937_64 random(1);
-  for (int draw = 0; draw < kDraws && acting.size() > 1; ++draw) {
-    std::fill(tried.error.begin(), tried.error.end(), 0.0);
-    const double each = kTried / std::sqrt(static_cast<double>(acting.size()));
-    for (const std::size_t e : acting) tried.error[e] = (random() >> 63 ? each : -each) / size_[e];
+  for (int draw = 0; draw < kDraws && together; ++draw) {
+    for (const std::size_t e : acting)
+      tried.error[e] = (random() >> 63 ? kTried : -kTried) * displaces[e] / (std::sqrt(sum_of_squares) * size_[e]);
     look();
   }
 }

@@ -6,7 +6,8 @@
 //
 //     curvature * sum over e of (eps_e s_e)^2,
 //
-// curvature the largest found among errors one by one, and all together with signs drawn at random.
+// curvature the largest found among errors one by one, and all together with signs drawn at random, in the proportions in which they are typically
+// there: among many that are not, what two errors miss together would count for next to nothing.
 #pragma once
 
 #include "boresight/pointing/indices.hpp"
@@ -16,8 +17,9 @@ namespace boresight {
 
 class StandingCurvature {
  public:
+  // typical: the size of each error, such as its RMS over a scatter [SI]; none: all displace alike.
   StandingCurvature(const Mechanism& mechanism, const IdealMotion& commanded, const StandingErrors& influence,
-                    PointingQuantity quantity);
+                    PointingQuantity quantity, const std::vector<double>& typical = {});
   // Relative to an index of this size; 1 where that vanishes.
   double error(const std::vector<double>& errors, double index) const;
 

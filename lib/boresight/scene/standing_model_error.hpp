@@ -1,4 +1,5 @@
-// What the columns of influence leave out of standing errors: the built mechanism's joints are closed exactly at some instants of the motion.
+// What the columns of influence leave out of standing errors: the built mechanism's joints are closed exactly at some instants of the motion, among them
+// those about which the errors displace most.
 #pragma once
 
 #include <optional>

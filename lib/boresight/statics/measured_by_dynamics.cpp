@@ -146,7 +146,7 @@ struct Measured {
   double exceeded =
       0.0;  // by how much the largest position error of the dynamic rung exceeds the static one's, relative
   PerQuantity of_linearity =
-      {};             // what the dynamic rung states for its own model, relative: both are linear in the offsets
+      {};             // what the dynamic rung states for its own model, relative to what is said: both are linear in the offsets
   double bent = 0.0;  // the largest of these, of what is more than next to nothing
   bool keeps = true;  // false: its caller wanted it to stop
   bool found = true;  // false: it could not be measured
@@ -333,6 +333,8 @@ class MeasuredByDynamics final : public Rung {
         largest = std::max(largest, unit(quantity) * motion.index.of(quantity).max);
       return largest;
     };
+    PerQuantity of_bound;  // how much of a bound the motions reach
+    of_bound.fill(1.0);
     double largest_pose = 0.0;
     for (int k = 0; k < 3; ++k) largest_pose = std::max(largest_pose, largest_of(quantities[k]));
     for (const auto quantity : quantities) {
@@ -349,19 +351,23 @@ class MeasuredByDynamics final : public Rung {
         const double mean = sum / static_cast<double>(motions.size());
         const double own = index.of(quantity).*statistic, least = kNextToNothing * largest / unit(quantity);
         const double off = std::abs(own - mean) + kOfRange * (high - low);
-        // Relative to what is said, which may be far less than what there is.
-        const double against = mean > least ? std::max(std::min(own, mean), least) : largest / unit(quantity);
+        // Relative to what is said, which may be far less than what there is. A bound is above what there is by less than all of it.
+        const double against = bounds_        ? std::max(own, least)
+                               : mean > least ? std::max(std::min(own, mean), least)
+                                              : largest / unit(quantity);
         if (against > 0.0)
           model = std::max(model, off / against);
         else if (off > kRounding)  // where nothing moves at all, all of it is wrong
           model = std::max(model, 1.0);
+        if (bounds_ && statistic == &Statistics::max && own > mean)
+          of_bound[static_cast<std::size_t>(quantity)] = mean / own;
         if (statistic == &Statistics::max && quantity == quantities[0] && high > own + kRounding)
           measured.exceeded = own > 0.0 ? high / own - 1.0 : std::numeric_limits<double>::infinity();
       }
     }
     for (const RunResult& motion : motions)
       for (int k = 0; k < kPointingQuantities; ++k)
-        measured.of_linearity[k] = std::max(measured.of_linearity[k], motion.error.model[k]);
+        measured.of_linearity[k] = std::max(measured.of_linearity[k], of_bound[k] * motion.error.model[k]);
     for (int k = 0; k < kPointingQuantities; ++k) measured.error.model[k] += measured.of_linearity[k];
     for (const auto quantity : quantities)
       if (unit(quantity) * largest_of(quantity) > kNextToNothing * largest_pose)

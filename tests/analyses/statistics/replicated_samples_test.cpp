@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_randist.h>
 
 #include "repetition.hpp"
 
@@ -55,15 +56,38 @@ TEST(ReplicatedSamples, LeaveATailWithFewSamplesUnbounded) {
   EXPECT_LT(s.quantile(0.95, 0.95).high, std::numeric_limits<double>::infinity());
 }
 
-// 1 to 400, dealt to four replicates in turn: every one has its half below 200.5, and what is left is the rounding of their shares,
-// 1 / (100 sqrt(12 * 4)). By Student's t of three degrees, 3.18245, that is 0.01837 on the logit scale: shares 0.49541 and 0.50459.
+// 1 to 400, dealt to four replicates in turn: every one has its half below 200.5, and what is left is the rounding of their shares.
+// That the average share lies off all four, up to a hundredth away, has a chance of 0.025 where it lies 1 - 0.025^(1/4) of that away: 0.49398, 0.50602.
 TEST(ReplicatedSamples, ReadWoodruffsIntervalThroughThePooledSamples) {
   Lists dealt(4);
   for (int k = 0; k < 400; ++k) dealt[static_cast<std::size_t>(k % 4)].push_back(k + 1);
   const ReplicatedInterval median = ReplicatedSamples(std::move(dealt)).quantile(0.5, 0.95);
   EXPECT_EQ(median.value, 200.5);
-  EXPECT_EQ(median.low, 198.0);   // 198.2 samples
-  EXPECT_EQ(median.high, 202.0);  // 201.8 samples
+  EXPECT_EQ(median.low, 197.0);   // 197.6 samples
+  EXPECT_EQ(median.high, 203.0);  // 202.4 samples
+}
+
+// A net of one parameter has as many samples below the limit as it ought to, or one more, each time by chance: p * size - that many. The chance that
+// the lower bound lies above p is then a sum over how many of the nets have one more.
+TEST(ReplicatedSamples, AreNotSurerThanTheySayWhereSharesTakeTwoNeighbouringValues) {
+  struct Design {
+    int replicates, size;
+    double one_sided;
+  };
+  for (const Design& d : {Design{8, 64, 0.95}, Design{16, 64, 0.9}, Design{10, 100, 0.95}, Design{16, 16, 0.99}})
+    for (int i = 1; i < 60; ++i) {
+      const double p = 1.0 - 0.4 * i / 60.0 / 2.0, sought = p * d.size, one_more = sought - std::floor(sought);
+      double above = 0.0;
+      for (int k = 0; k <= d.replicates; ++k) {
+        Lists nets(static_cast<std::size_t>(d.replicates), std::vector<double>(static_cast<std::size_t>(d.size), 1.0));
+        for (int r = 0; r < d.replicates; ++r)
+          std::fill_n(nets[static_cast<std::size_t>(r)].begin(), static_cast<int>(sought) + (r < k ? 1 : 0), 0.0);
+        const double low = ReplicatedSamples(nets).probability_below(0.5, 2.0 * d.one_sided - 1.0).low;
+        if (low >= p)
+          above += gsl_ran_binomial_pdf(static_cast<unsigned>(k), one_more, static_cast<unsigned>(d.replicates));
+      }
+      EXPECT_LE(above, 1.0 - d.one_sided + 1e-9) << d.replicates << " of " << d.size << ", p = " << p;
+    }
 }
 
 TEST(ReplicatedSamples, OfALatinHypercubeAreFarNarrowerThanIndependentOnes) {

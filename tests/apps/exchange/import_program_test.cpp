@@ -67,8 +67,9 @@ TEST_F(ImportProgram, OverwritesNothing) {
 TEST_F(ImportProgram, WhatIsWrongWithAnOptionIsOneLine) {
   write("gimbal.urdf", kGimbal);
   const std::vector<std::vector<std::string>> wrong = {
-      {"--boresight", "camra:x"}, {"--boresight", "base:x"}, {"--ground", "bse"},    {"--drive", "pn=1"},
-      {"--drive", "pan=sin("},    {"--drive", "pan=; tilt"}, {"--duration", "1 kg"}, {"--duration", "-1 s"}};
+      {"--boresight", "camra:x"},    {"--boresight", "base:x"}, {"--ground", "bse"},
+      {"--drive", "pn=1"},           {"--drive", "pan=sin("},   {"--drive", "pan=; tilt"},
+      {"--drive", "pan=t; pan=2*t"}, {"--duration", "1 kg"},    {"--duration", "-1 s"}};
   for (const std::vector<std::string>& options : wrong) {
     std::vector<std::string> command = {"import", "gimbal.urdf", "--to", "out.toml"};
     command.insert(command.end(), options.begin(), options.end());
@@ -78,6 +79,20 @@ TEST_F(ImportProgram, WhatIsWrongWithAnOptionIsOneLine) {
     EXPECT_THAT(import.err, HasSubstr(options[0]));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.toml"));
   }
+}
+
+TEST_F(ImportProgram, AJointThatIsDrivenTwiceIsNamed) {
+  write("gimbal.urdf", kGimbal);
+  const Ended import = call({"import", "gimbal.urdf", "--to", "out.toml", "--drive", "pan=1*t; pan=2*t"});
+  EXPECT_EQ(import.status, 2);
+  EXPECT_THAT(import.err, HasSubstr("--drive: found \"pan\" twice, expected each joint once"));
+}
+
+TEST_F(ImportProgram, AFileWhoseNameIsNotUtf8IsReadAsAnyOther) {
+  write("gimbal\xE9.urdf", kGimbal);
+  const Ended import = call({"import", "gimbal\xE9.urdf", "--to", "out.toml"});
+  ASSERT_EQ(import.status, 0) << import.err;
+  EXPECT_THAT(text("out.toml"), HasSubstr("imported from gimbal\\xe9.urdf (URDF)"));
 }
 
 TEST_F(ImportProgram, AnAxisThatIsNoneIsNamed) {

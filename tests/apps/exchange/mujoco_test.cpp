@@ -122,6 +122,20 @@ TEST(MuJoCo, WhatAsksForAnotherPoseThanTheDrawnOneIsNamed) {
   std::filesystem::remove(file);
 }
 
+TEST(MuJoCo, ANameThatIsNotUtf8IsRefused) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / ("letters-" + std::to_string(::getpid()) + ".xml");
+  std::ofstream(file) << "<mujoco><worldbody><body name='m\xEF'><joint name='j' axis='0 1 0'/>"
+                         "<inertial pos='0 0 1' mass='1' diaginertia='1 1 1'/></body></worldbody></mujoco>";
+  try {
+    read_mjcf(file.string());
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("name: found the byte 0xEF, expected UTF-8"));
+  }
+  std::filesystem::remove(file);
+}
+
 // Loops that MuJoCo closes by equalities are closed at home.
 TEST(MuJoCo, FindsTheLoopsOfTheExamplesClosed) {
   for (const char* name : {"3-rrcpr/3-rrcpr.toml", "hexapod/hexapod.toml", "bricard/bricard.toml",

@@ -102,6 +102,37 @@ TEST(Sdf, FramesHangInFrames) {
   expect_near(k.second_axis, Vec3(-std::sin(0.5), std::cos(0.5), 0.0), 1e-12);
 }
 
+// The link that a joint moves whose child is `frame`, in a model with these attributes that holds a model with those.
+std::string link_moved(const std::string& frame, const std::string& attributes = "", const std::string& inner = "") {
+  const auto link = [](const std::string& name) { return "<link name='" + name + "'>" + inertial(1.0) + "</link>"; };
+  const MechanismDescription m =
+      imported(read_sdf("<sdf version='1.9'><model name='m'" + attributes +
+                            "><frame name='f'/><frame name='g' attached_to='f'/>"
+                            "<frame name='posed'><pose relative_to='a'>0 0 1 0 0 0</pose></frame>"
+                            "<frame name='of_b' attached_to='b'/>" +
+                            link("a") + link("b") + "<model name='in'" + inner + "><frame name='f'/>" + link("c") +
+                            link("d") + "</model><joint name='j' type='revolute'><parent>world</parent><child>" +
+                            frame + "</child><axis><xyz>0 0 1</xyz></axis></joint></model></sdf>",
+                        "m.sdf"));
+  return m.bodies.at(0).name;  // nothing holds the others
+}
+
+TEST(Sdf, AFrameThatIsAttachedToNothingMovesWithTheCanonicalLink) {
+  for (const char* frame : {"f", "g", "posed", "__model__"}) {
+    EXPECT_EQ(link_moved(frame), "a") << frame;  // the first
+    EXPECT_EQ(link_moved(frame, " canonical_link='b'"), "b") << frame;
+    EXPECT_EQ(link_moved(frame, " canonical_link='in::d'"), "in::d") << frame;
+  }
+  EXPECT_EQ(link_moved("of_b", " canonical_link='a'"), "b");
+}
+
+TEST(Sdf, AModelInAModelHasACanonicalLinkOfItsOwn) {
+  for (const char* frame : {"in", "in::f", "in::__model__"}) {
+    EXPECT_EQ(link_moved(frame, " canonical_link='b'"), "in::c") << frame;
+    EXPECT_EQ(link_moved(frame, " canonical_link='b'", " canonical_link='d'"), "in::d") << frame;
+  }
+}
+
 TEST(Sdf, ModelsInModelsKeepTheirNames) {
   const MechanismDescription m =
       imported(read_sdf("<sdf version='1.9'><model name='m'><link name='a'>" + inertial(1.0) +
@@ -181,6 +212,13 @@ INSTANTIATE_TEST_SUITE_P(
                              "\"screw\""},
                     SdfFault{"<joint name='j' type='ball'><parent>a</parent>\n<child>c</child></joint>", "3", "\"c\""},
                     SdfFault{"<joint name='j' type='ball'><parent>a</parent></joint>", "2", "no <child>"},
+                    SdfFault{"<model name='in' canonical_link='tpi'><link name='tip'/></model>", "2",
+                             "model.canonical_link: found \"tpi\", expected the name of a link; did you mean tip?"},
+                    SdfFault{"<model name='in' canonical_link='f'><link name='tip'/><frame name='f'/></model>", "2",
+                             "model.canonical_link: found \"f\""},
+                    SdfFault{"<frame name='f' attached_to='g'/><frame name='g' attached_to='f'/>\n<joint name='j' "
+                             "type='ball'><parent>f</parent><child>a</child></joint>",
+                             "3", "joint.parent: found \"f\""},
                     SdfFault{"<frame name='f'><pose relative_to='g'/></frame>\n<frame name='g'><pose "
                              "relative_to='f'/></frame><link name='c'><pose relative_to='f'/></link>",
                              "", "circle"},

@@ -76,6 +76,21 @@ TEST(Urdf, AJointThatMimicsAnotherFollowsItsCourse) {
     }
 }
 
+TEST(Urdf, AJointIsDrivenOnceWhicheverOfItsNamesSaysSo) {
+  ImportChoices choices;
+  choices.drives_given = true;
+  choices.drives = {{"pan.1", "t"}, {"pan_1", "2*t"}};  // in a mechanism file, names hold no dots
+  try {
+    assembled(read_urdf(R"(<robot name="r"><link name="base"/><link name="a"/>
+    <joint name="pan.1" type="continuous"><parent link="base"/><child link="a"/></joint></robot>)",
+                        "r.urdf"),
+              choices);
+    FAIL() << "expected a fault";
+  } catch (const InputError& fault) {
+    EXPECT_THAT(fault.what(), HasSubstr("--drive: found \"pan_1\" twice, expected each joint once"));
+  }
+}
+
 // Whichever name comes first.
 TEST(Urdf, AJointMayFollowOneThatFollows) {
   for (const char* last : {"a", "z"}) {
@@ -202,6 +217,11 @@ INSTANTIATE_TEST_SUITE_P(
     Of, UrdfFault,
     testing::Values(
         Fault{"<robot name='r'>\n<link name='a'>\n</robot>", "2", "no XML"},
+        Fault{"<?xml version='1.0' encoding='ISO-8859-1'?>\n<robot name='m\xEF'><link name='a'/></robot>", "2",
+              "robot.name: found the byte 0xEF (the file declares ISO-8859-1), expected UTF-8"},
+        Fault{"<robot name='r'>\n<link name='a\xF6'/></robot>", "2",
+              "link.name: found the byte 0xF6 (the file declares no encoding), expected UTF-8"},
+        Fault{"\xFF\xFE<", "1", "found a text in UTF-16, expected one in UTF-8"},
         Fault{"<robot name='r'>\n</robot>", "1", "no <link>"},
         Fault{"<robot name='r'>\n<link name='a'/>\n<link name='a'/></robot>", "3", "a second time"},
         Fault{"<robot name='r'>\n<link name='a'/>\n<link name='b'/></robot>", "3", "which no joint connects"},
@@ -232,6 +252,15 @@ INSTANTIATE_TEST_SUITE_P(
               "link='a'/></joint>\n<joint name='k' type='fixed'><parent link='a'/><child link='b'/></joint></robot>",
               "1", "circle"},
         Fault{"<robot name='r' xmlns:xacro='x'>\n<xacro:include filename='a'/></robot>", "2", "xacro"}));
+
+TEST(Urdf, AnotherEncodingIsNoFaultWhereNothingIsTakenOver) {
+  const MechanismDescription m =
+      imported(read_urdf("<?xml version='1.0' encoding='ISO-8859-1'?>\n<!-- \xA9 M\xFCller -->\n"
+                         "<robot name='r'><link name='base'/><link name='a'/><joint name='j' type='continuous'>"
+                         "<parent link='base'/><child link='a'/></joint></robot>",
+                         "r.urdf"));
+  EXPECT_EQ(m.joints.size(), 1u);
+}
 
 TEST(Urdf, NothingThatMovesIsNoMechanism) {
   EXPECT_THROW(assembled(read_urdf("<robot name='r'><link name='a'/></robot>", "r.urdf"), {}), InputError);

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/scene/standing_model_error.hpp"
@@ -143,6 +146,83 @@ TEST(GeometricErrors, SayWhatBeingLinearMisses) {
     EXPECT_LT(out.model_error * out.value, 100.0 * missed->position);
   }
   EXPECT_LE(below, 2);
+}
+
+std::shared_ptr<const Mechanism> read(const std::string& text) {
+  return std::make_shared<const Mechanism>(read_mechanism_text(text, "scene.toml"));
+}
+
+std::string body(const std::string& name, const std::string& more = "") {
+  return "[[body]]\nname = \"" + name +
+         "\"\nmass = \"1 kg\"\ncenter_of_mass = [\"0 m\", \"0 m\", \"0 m\"]\n"
+         "inertia = [\"0.01 kg m^2\", \"0.01 kg m^2\", \"0.01 kg m^2\"]\n" +
+         more;
+}
+std::string joint(const std::string& name, const std::string& type, const std::string& parts, const std::string& point,
+                  const std::string& more) {
+  return "[[joint]]\nname = \"" + name + "\"\ntype = \"" + type + "\"\nconnects = [" + parts + "]\npoint = [" + point +
+         "]\n" + more;
+}
+
+// A four-bar that passes 0.2 mm from where its coupler and rocker lie in line: there its crank's length tells most, in a hundredth of the turn.
+std::string beside_a_toggle() {
+  const std::string axis = "axis = [0, -1, 0]\n";
+  return "format = 1\nname = \"beside a toggle\"\n" + body("crank") + body("coupler") +
+         body("rocker", "boresight = [-0.03217242721926692, 0.0, 0.9994823334740945]\n") +
+         joint("A", "revolute", "\"ground\", \"crank\"", "\"0 m\", \"0 m\", \"0 m\"", axis + "driven = true\n") +
+         joint("B", "revolute", "\"crank\", \"coupler\"",
+               "\"0.05403023058681398 m\", \"0 m\", \"0.08414709848078966 m\"", axis) +
+         joint("C", "revolute", "\"coupler\", \"rocker\"",
+               "\"0.2951677014316661 m\", \"0 m\", \"0.15012224648780903 m\"", axis) +
+         joint("D", "revolute", "\"ground\", \"rocker\"", "\"0.3 m\", \"0 m\", \"0 m\"", axis) +
+         "[motion]\nduration = \"1 s\"\ndrives = { A = \"2*pi*t\" }\n[[error]]\nname = \"len\"\njoint = \"B\"\n"
+         "body = \"crank\"\ntranslation = [0.5403023058681398, 0.0, 0.8414709848078966]\nvalue = \"0.1 mm\"\n";
+}
+
+TEST(GeometricErrors, SayWhatIsMissedInAMomentBesideASingularPose) {
+  const auto mechanism = read(beside_a_toggle());
+  const double exact = make_rung("multibody", mechanism)->run(mechanism->parameters(), {}).index.boresight_error.max;
+  const RunResult linear = make_rung("quasistatic", mechanism)->run(mechanism->parameters(), {});
+  const double value = linear.index.boresight_error.max;
+  EXPECT_GT(exact, 1.1 * value);
+  EXPECT_GE(linear.error.model_of(PointingQuantity::boresight_error) * value, 0.9 * (exact - value));
+  GeometricOutcome out;
+  GeometricErrors(mechanism, PointingQuantity::boresight_error, TimeStatistic::max)
+      .run({&mechanism->parameters(), 1}, {&out, 1});
+  EXPECT_GE(out.model_error * out.value, 0.9 * (exact - value));
+}
+
+// A turn of a drive and a shift on its arm miss together what neither misses alone; errors that are not there beside them change nothing.
+TEST(GeometricErrors, SayWhatTwoErrorsMissTogetherAmongManyThatAreNotThere) {
+  const auto with = [](int others) {
+    std::string text =
+        "format = 1\nname = \"arm\"\n" + body("arm") + body("tip", "boresight = [0, 0, 1]\n") +
+        joint("A", "revolute", "\"ground\", \"arm\"", "\"0 m\", \"0 m\", \"0 m\"",
+              "axis = [0, 0, 1]\ndriven = true\n") +
+        joint("F", "fixed", "\"arm\", \"tip\"", "\"0.5 m\", \"0 m\", \"0.5 m\"", "") +
+        "[motion]\nduration = \"1 s\"\ndrives = { A = \"0.001*t\" }\n"
+        "[[error]]\nname = \"turn\"\ndrive = \"A\"\nvalue = 0.03\n"
+        "[[error]]\nname = \"shift\"\njoint = \"F\"\nbody = \"arm\"\ntranslation = [0, 1, 0]\nvalue = \"21 mm\"\n";
+    for (int k = 0; k < others; ++k)
+      text += "[[error]]\nname = \"other" + std::to_string(k) +
+              "\"\njoint = \"A\"\nbody = \"ground\"\ntranslation = [0, 0, 1]\nvalue = \"0 m\"\n";
+    return read(text);
+  };
+  double alone = 0.0;
+  for (const int others : {0, 10, 30}) {
+    const auto mechanism = with(others);
+    const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
+    const auto influence = StandingErrors::of_all(*mechanism, ideal);
+    const Parameters& sample = mechanism->parameters();
+    const auto missed = missed_by_linearity(*mechanism, ideal, *influence, sample);
+    ASSERT_TRUE(missed);
+    GeometricOutcome out;
+    GeometricErrors(mechanism, PointingQuantity::position_error, TimeStatistic::max, 0.0, sample.error)
+        .run({&sample, 1}, {&out, 1});
+    EXPECT_GE(out.model_error * out.value, 0.9 * missed->position) << others;
+    if (others == 0) alone = out.model_error;
+    EXPECT_NEAR(out.model_error, alone, 0.01 * alone) << others;
+  }
 }
 
 // A part held twice cannot take an error up: that sample is refused by its name, those beside it are computed.
