@@ -175,6 +175,8 @@ std::vector<AllocationEntry> read_errors_of(Cursor& table, ZoneLaw law, const Me
       entry.options = read_processes(table, entry, unit, law);
     else
       entry.curve = read_curve(table, entry, unit);
+    if (are_scales(mechanism, entry.paths))
+      entry.said_in = unit_to_say(mechanism, entry.paths, table.unit_as_written("tolerance"));
     check_gaps(table, entry, accepts);
     entries.push_back(std::move(entry));
   }

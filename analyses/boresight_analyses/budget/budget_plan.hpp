@@ -114,6 +114,7 @@ struct BudgetPart {
   std::vector<std::size_t> contributors;  // of the plan, its own
   bool mechanism = false;                 // whether the mechanism's own error is in it
   double allocated = 0.0;                 // SI; 0: nothing
+  std::string unit = "";                  // in which the study writes it
 };
 
 struct BudgetPlan {

@@ -45,7 +45,10 @@ void read_parts(Cursor& budget, BudgetPlan& plan, const SiUnit& unit) {
     part.mechanism = table.boolean("mechanism");
     if (part.mechanism && mechanism) table.fail_found("mechanism", "true a second time", "the mechanism in one part");
     mechanism = mechanism || part.mechanism;
-    if (table.has("allocated")) part.allocated = table.quantity("allocated", unit);
+    if (table.has("allocated")) {
+      part.allocated = table.quantity("allocated", unit);
+      part.unit = table.unit_as_written("allocated");
+    }
     table.finish();
     plan.parts.push_back(std::move(part));
   }

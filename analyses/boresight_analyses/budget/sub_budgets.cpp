@@ -84,7 +84,12 @@ class Tree {
   SubBudget made(std::size_t p, int depth) const {
     const BudgetPart& part = plan_.parts[p];
     const Held held = held_by(plan_, part);
-    SubBudget b{.name = part.name, .within = part.within, .depth = depth, .holds = {}, .allocated = part.allocated};
+    SubBudget b{.name = part.name,
+                .within = part.within,
+                .depth = depth,
+                .holds = {},
+                .allocated = part.allocated,
+                .unit = part.unit};
     if (held.mechanism) b.holds.emplace_back(kMechanism);
     for (const std::size_t i : held.contributors) b.holds.push_back(plan_.contributors[i].name);
     std::vector<std::vector<double>> sizes;

@@ -21,6 +21,7 @@ struct SubBudget {
   int depth = 0;                   // 0 of those in the whole
   std::vector<std::string> holds;  // contributors, and "mechanism", of all parts within it too
   double allocated = 0.0;          // 0: nothing
+  std::string unit = "";           // in which the study writes it
   ReportedInterval level = {};
   double by_rule = 0.0;
   EnsembleInTime::Compliance compliance = {};  // with what is allocated

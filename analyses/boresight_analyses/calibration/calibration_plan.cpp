@@ -128,7 +128,7 @@ FittedParameter planned_parameter(const PlannedParameter& p, const Mechanism& me
   FittedParameter fitted = fitted_parameter(mechanism.description(), p.path, p.start.value_or(own), p.origin);
   if (!fitted.is_error() && !(fitted.start > 0.0))
     throw InputError(p.origin, p.path, "a start of 0", "start = ..., more than 0");
-  fitted.written_unit = p.written_unit;
+  if (!p.written_unit.empty()) fitted.written_unit = p.written_unit;
   if (p.prior) {
     fitted.has_prior = true;
     (fitted.is_error() ? fitted.size : fitted.prior) = *p.prior * (p.prior_is_share ? fitted.start : 1.0);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/keys/parameter_unit.hpp"
+
 namespace boresight {
 namespace {
 
@@ -75,6 +77,7 @@ FittedParameter fitted_parameter(const MechanismDescription& mechanism, const st
   p.path = path;
   p.place.emplace_back(mechanism, path, origin);
   p.si_unit = p.place.front().unit();
+  p.written_unit = unit_to_say(mechanism, {path}, "");
   p.start = start;
   if (path.starts_with("error.")) {
     p.transform = Transform::linear;

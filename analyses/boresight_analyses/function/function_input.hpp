@@ -27,7 +27,8 @@ std::vector<FunctionInput> inputs_of(const RandomInputs& inputs);
 // The key of a mechanism file that gives this number, with its range: that of "radial" for "clearance.F1.radial"; null for a
 // standing error, whose range hangs on its unit.
 const Key* key_of_path(const std::string& path);
-// Throws ValueFault where the mechanism's own reader would refuse this value [SI], or it is no finite number.
+// Throws ValueFault where the mechanism's own reader would refuse this value [SI] whatever the others are, or it is no finite number. What
+// values must hold together: impossible_numbers().
 void check_value(const FunctionInput& input, double value);
 
 }  // namespace boresight

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "boresight/keys/numbers_together.hpp"
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -67,6 +68,8 @@ void IndexFunction::check(std::span<const double> point) const {
     } catch (const ValueFault& fault) {
       throw InputError({}, inputs_[i].name(), fault.found, fault.expected, fault.nearest);
     }
+  if (const auto impossible = impossible_numbers(mechanism_->description(), parameters_at(point)))
+    throw InputError({}, impossible->path, impossible->found, impossible->expected);
 }
 
 Outcome IndexFunction::at(std::span<const double> point, const std::atomic<bool>& stop) const {

@@ -37,7 +37,7 @@ class IndexFunction {
   std::vector<double> nominal() const;  // SI, in the order of the inputs
 
   // Of one point [SI]. What goes wrong in its motion is an outcome; stop: it then is not reached. Throws InputError for a point
-  // of another size or a value that the mechanism does not take.
+  // of another size, or a value or values together that the mechanism does not take.
   Outcome at(std::span<const double> point, const std::atomic<bool>& stop = never()) const;
   // Of many, over threads, and on lanes where they serve. Throws besides what evaluate_all() throws.
   std::vector<Outcome> at_all(const std::vector<std::vector<double>>& points, const ParallelEvaluation& options) const;

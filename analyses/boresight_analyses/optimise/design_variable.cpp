@@ -33,7 +33,7 @@ DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& m
   const SiUnit unit = unit_of_parameters(mechanism, v.paths, v.si_unit);
   v.from = entry.value("from", unit);
   v.to = entry.value("to", unit);
-  v.unit = entry.unit_as_written("from");
+  v.unit = unit_to_say(mechanism, v.paths, entry.unit_as_written("from"));
   entry.require(v.from < v.to, "to", "more than from");
   v.log = entry.choice("scale") == "log";
   if (v.log) entry.require(v.from > 0.0, "from", "more than 0, as the scale is \"log\"");

@@ -11,6 +11,7 @@
 #include "boresight_analyses/runs/stored_header.hpp"
 #include "boresight_analyses/runs/stored_pilot.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
+#include "boresight_analyses/study/setup_samples.hpp"
 #include "boresight_analyses/study/study_error.hpp"
 
 namespace boresight {
@@ -185,7 +186,7 @@ std::unique_ptr<SampleModel> StudyRun::model_of_scatter(const std::string& rung,
       [mechanism = mechanism_, inputs](std::span<const double> values) {
         return inputs.parameters_with(*mechanism, values);
       },
-      options_.index, run, scene_varies(inputs));
+      options_.index, run, scene_varies(inputs), typical_errors(draws_of_scatter(inputs, *mechanism_, kDrawsForPilot)));
 }
 
 std::unique_ptr<SampleModel> StudyRun::model_on(const std::string& rung, const RandomInputs& inputs,

@@ -17,11 +17,12 @@ TimeStatistic statistic_of(const IndexChoice& index) {
 }  // namespace
 
 GeometricSampleModel::GeometricSampleModel(std::string rung, std::shared_ptr<const Mechanism> mechanism,
-                                           RungSampleModel::ParametersOf parameters_of, IndexChoice index)
+                                           RungSampleModel::ParametersOf parameters_of, IndexChoice index,
+                                           const std::vector<double>& typical)
     : rung_(std::move(rung)),
       mechanism_(std::move(mechanism)),
       parameters_of_(std::move(parameters_of)),
-      geometry_(mechanism_, index.kind(), statistic_of(index), index.start) {}
+      geometry_(mechanism_, index.kind(), statistic_of(index), index.start, typical) {}
 
 bool GeometricSampleModel::serve(const std::string& rung, const Mechanism& mechanism) {
   return rung != rung_names().back() && GeometricErrors::serve(mechanism);

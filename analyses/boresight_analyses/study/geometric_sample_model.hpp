@@ -8,9 +8,10 @@ namespace boresight {
 
 class GeometricSampleModel final : public SampleModel {
  public:
-  // rung: in whose name.
+  // rung: in whose name. typical: StandingCurvature.
   GeometricSampleModel(std::string rung, std::shared_ptr<const Mechanism> mechanism,
-                       RungSampleModel::ParametersOf parameters_of, IndexChoice index);
+                       RungSampleModel::ParametersOf parameters_of, IndexChoice index,
+                       const std::vector<double>& typical = {});
 
   // Whether samples on this rung are pure geometry. Steps and integrators then mean nothing.
   static bool serve(const std::string& rung, const Mechanism& mechanism);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/keys/numbers_together.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -11,6 +12,7 @@
 #include "boresight/stepping/measured_error.hpp"
 #include "boresight_analyses/study/geometric_sample_model.hpp"
 #include "boresight_analyses/study/measurement.hpp"
+#include "boresight_analyses/study/shared_time.hpp"
 
 namespace boresight {
 
@@ -21,12 +23,12 @@ bool LaneSampleModel::serve(const Mechanism& mechanism, const IndexChoice& index
 
 LaneSampleModel::LaneSampleModel(std::shared_ptr<const Mechanism> mechanism,
                                  RungSampleModel::ParametersOf parameters_of, IndexChoice index, bool scene_varies,
-                                 double tolerance)
+                                 double tolerance, std::vector<double> typical)
     : mechanism_(std::move(mechanism)),
       parameters_of_(std::move(parameters_of)),
       index_(std::move(index)),
       scene_varies_(scene_varies),
-      lanes_(mechanism_, index_.kind(), index_.start),
+      lanes_(mechanism_, index_.kind(), index_.start, std::move(typical)),
       tolerance_(tolerance) {}
 
 namespace {
@@ -96,10 +98,7 @@ double LaneSampleModel::times_nonlinearity(const std::atomic<bool>& stop) const 
 
 std::string LaneSampleModel::leaves_out() const { return make_rung("perturbation", mechanism_)->leaves_out(); }
 
-void LaneSampleModel::take(const LaneOutcome& found, const Parameters& parameters, double seconds_per_attempt,
-                           Outcome& outcome) const {
-  outcome.evaluations = static_cast<double>(found.steps + found.rejected);
-  outcome.cpu_seconds = seconds_per_attempt * outcome.evaluations;
+void LaneSampleModel::take(const LaneOutcome& found, const Parameters& parameters, Outcome& outcome) const {
   if (found.status != LaneStatus::done) {
     outcome.status = Outcome::Status::failed;
     outcome.message =
@@ -138,24 +137,47 @@ void LaneSampleModel::evaluate_each(std::span<const Sample> samples, std::span<O
   } catch (const Interrupted&) {
     return;
   }
-  const double start = thread_cpu_seconds();
+  SharedTime time(thread_cpu_seconds());
   std::vector<Parameters> parameters;
-  for (const Sample& sample : samples) parameters.push_back(parameters_of_(sample.values));
-  std::vector<LaneOutcome> found(samples.size());
-  const auto ended = [&](std::size_t k, double attempts) {
-    take(found[k], parameters[k], (thread_cpu_seconds() - start) / std::max(1.0, attempts), outcomes[k]);
-    reached(k);
+  std::vector<std::size_t> place;  // of each of them among the samples
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    Parameters drawn = parameters_of_(samples[k].values);
+    if (const auto impossible = impossible_numbers(mechanism_->description(), drawn)) {
+      outcomes[k].status = Outcome::Status::failed;
+      outcomes[k].message = impossible->text();
+      reached(k);
+      continue;
+    }
+    parameters.push_back(std::move(drawn));
+    place.push_back(k);
+  }
+  std::vector<LaneOutcome> found(parameters.size());
+  const auto prepared = [&](std::size_t count, double attempts) { time.begin(count, thread_cpu_seconds(), attempts); };
+  const auto ended = [&](std::size_t i, double attempts) {
+    Outcome& outcome = outcomes[place[i]];
+    take(found[i], parameters[i], outcome);
+    outcome.evaluations = static_cast<double>(found[i].steps + found[i].rejected);
+    outcome.cpu_seconds = time.end(outcome.evaluations, attempts, thread_cpu_seconds());
+    reached(place[i]);
   };
   try {
-    lanes_.run(parameters, found, tolerance_, {.stop = &stop, .ended = ended});
+    lanes_.run(parameters, found, tolerance_, {.stop = &stop, .ended = ended, .prepared = prepared});
   } catch (const ComputationError& failure) {
     // Some sample's scene or errors: the others are none the worse for it.
-    for (std::size_t k = 0; k < samples.size() && !stop; ++k) {
-      if (outcomes[k].status != Outcome::Status::not_reached) continue;
+    const auto open = [&](std::size_t k) { return outcomes[k].status == Outcome::Status::not_reached; };
+    const auto count = static_cast<double>(std::count_if(place.begin(), place.end(), open));
+    const double in_vain = time.unpaid(thread_cpu_seconds()) / std::max(1.0, count);
+    for (const std::size_t k : place) {
+      if (stop) break;
+      if (!open(k)) continue;
       if (samples.size() > 1) {
-        evaluate_each(samples.subspan(k, 1), outcomes.subspan(k, 1), stop, [&](std::size_t) { reached(k); });
+        evaluate_each(samples.subspan(k, 1), outcomes.subspan(k, 1), stop, [&](std::size_t) {
+          outcomes[k].cpu_seconds += in_vain;
+          reached(k);
+        });
         continue;
       }
+      outcomes[k].cpu_seconds = in_vain;
       outcomes[k].status = Outcome::Status::failed;
       outcomes[k].message = failure.what();
       reached(k);
@@ -166,14 +188,14 @@ void LaneSampleModel::evaluate_each(std::span<const Sample> samples, std::span<O
 
 std::unique_ptr<SampleModel> sample_model(const std::string& rung, std::shared_ptr<const Mechanism> mechanism,
                                           RungSampleModel::ParametersOf parameters_of, IndexChoice index,
-                                          RunOptions options, bool scene_varies) {
+                                          RunOptions options, bool scene_varies, std::vector<double> typical) {
   if (GeometricSampleModel::serve(rung, *mechanism))
     return std::make_unique<GeometricSampleModel>(rung, std::move(mechanism), std::move(parameters_of),
-                                                  std::move(index));
+                                                  std::move(index), typical);
   if (rung == "perturbation" && LaneSampleModel::serve(*mechanism, index, options))
     return std::make_unique<LaneSampleModel>(std::move(mechanism), std::move(parameters_of), std::move(index),
-                                             scene_varies,
-                                             options.tolerance > 0.0 ? options.tolerance : kLaneTolerance);
+                                             scene_varies, options.tolerance > 0.0 ? options.tolerance : kLaneTolerance,
+                                             std::move(typical));
   return std::make_unique<RungSampleModel>(rung, std::move(mechanism), std::move(parameters_of), std::move(index),
                                            std::move(options), scene_varies);
 }

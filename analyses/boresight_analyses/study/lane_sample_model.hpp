@@ -14,9 +14,10 @@ namespace boresight {
 class LaneSampleModel final : public SampleModel {
  public:
   // scene_varies: whether masses or gravity scatter; then each sample's scene takes longer to prepare than it does to run.
-  // tolerance: PerturbationLanes::run().
+  // tolerance: PerturbationLanes::run(). typical: StandingCurvature.
   LaneSampleModel(std::shared_ptr<const Mechanism> mechanism, RungSampleModel::ParametersOf parameters_of,
-                  IndexChoice index, bool scene_varies, double tolerance = kLaneTolerance);
+                  IndexChoice index, bool scene_varies, double tolerance = kLaneTolerance,
+                  std::vector<double> typical = {});
 
   // Whether lanes can answer: a maximum, RMS or mean, laws that have lanes, and nothing asked that they do not have. A
   // tolerance without an integrator is theirs.
@@ -33,7 +34,7 @@ class LaneSampleModel final : public SampleModel {
                      const std::function<void(std::size_t)>& reached) const override;
 
  private:
-  void take(const LaneOutcome& found, const Parameters& parameters, double seconds_per_attempt, Outcome& outcome) const;
+  void take(const LaneOutcome& found, const Parameters& parameters, Outcome& outcome) const;
   double nonlinearity(const Parameters& parameters, const LaneOutcome& found) const;
   double nonlinearity_of_play(const Parameters& parameters, const LaneOutcome& found) const;
   double times_nonlinearity(const std::atomic<bool>& stop) const;
@@ -50,9 +51,9 @@ class LaneSampleModel final : public SampleModel {
 
 // The model of a rung's samples: pure geometry where there is no play, lanes where they serve, at the tolerance of the options if they
 // have one, else runs of the rung one by one.
-// scene_varies: whether masses, gravity or springs scatter.
+// scene_varies: whether masses, gravity or springs scatter. typical: StandingCurvature.
 std::unique_ptr<SampleModel> sample_model(const std::string& rung, std::shared_ptr<const Mechanism> mechanism,
                                           RungSampleModel::ParametersOf parameters_of, IndexChoice index,
-                                          RunOptions options, bool scene_varies);
+                                          RunOptions options, bool scene_varies, std::vector<double> typical = {});
 
 }  // namespace boresight

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "boresight/keys/numbers_together.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -103,6 +104,8 @@ void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outco
   options.progress = [&stop](const RunProgress&) { return !stop.load(std::memory_order_relaxed); };
   try {
     const Parameters parameters = parameters_of_(sample.values);
+    if (const auto impossible = impossible_numbers(mechanism_->description(), parameters))
+      throw ComputationError(impossible->text());
     const RunResult result = run(rung, parameters, options, outcome.message);
     outcome.cpu_seconds = result.cost.cpu_seconds;
     outcome.evaluations = static_cast<double>(result.cost.evaluations - result.cost.shared_evaluations);
@@ -137,6 +140,7 @@ double common_step(const std::string& rung, const std::shared_ptr<const Mechanis
   for (std::size_t k = 0; k < samples.size(); ++k) {
     double own = k < known.size() ? known[k] : 0.0;
     if (own == 0.0) {
+      if (impossible_numbers(mechanism->description(), samples[k])) continue;  // no motion is followed at this step
       if (!model) model = make_rung(rung, mechanism);
       try {
         const RunResult result = model->run(samples[k], options);

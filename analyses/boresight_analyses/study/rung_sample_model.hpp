@@ -56,7 +56,7 @@ class RungSampleModel final : public SampleModel {
 
 // The step that suits all of these samples: the smallest that the rung chooses for any of them; 0 where it takes none,
 // and where steps follow an error estimate: their mean would be far too long for a contact.
-// Throws ComputationError where it can follow none of them.
+// Throws ComputationError where it can follow none of them. Those whose numbers do not fit together (impossible_numbers()) are left out.
 // known: the steps of these samples as far as an earlier start found them, else 0; found(k, step) is told each that is found now, so
 // that a study whose motions are long gets on in however short a time.
 double common_step(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism,

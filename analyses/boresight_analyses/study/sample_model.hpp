@@ -50,8 +50,8 @@ class SampleModel {
   virtual double step() const = 0;  // of its integration [s]; 0: its own choice
   virtual std::string leaves_out() const = 0;
   virtual std::size_t batch() const = 0;  // the number of samples it likes to be given at once: see portion.hpp
-  // outcomes.size() == samples.size(). What goes wrong in a sample is an outcome, not an exception. Once `stop` is set
-  // it returns soon; samples cut short are then not_reached.
+  // outcomes.size() == samples.size(). What goes wrong in a sample is an outcome, not an exception; so it is where a mechanism's file
+  // could not hold its numbers together. Once `stop` is set it returns soon; samples cut short are then not_reached.
   virtual void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
                         const std::atomic<bool>& stop) const = 0;
   // The same, and tells of every sample that was reached, by its place among `samples`, once its outcome is there: one by one

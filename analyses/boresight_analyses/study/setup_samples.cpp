@@ -11,6 +11,16 @@
 
 namespace boresight {
 
+std::vector<double> typical_errors(const std::vector<Parameters>& samples) {
+  std::vector<double> typical;
+  for (const Parameters& sample : samples) {
+    typical.resize(sample.error.size(), 0.0);
+    for (std::size_t e = 0; e < typical.size(); ++e) typical[e] += sample.error[e] * sample.error[e];
+  }
+  for (double& size : typical) size = std::sqrt(size / static_cast<double>(samples.size()));
+  return typical;
+}
+
 SetupSamples::SetupSamples(std::shared_ptr<const Mechanism> mechanism, const std::vector<Parameters>& samples,
                            RungSetup setup, const IndexChoice& index, bool scene_varies)
     : setup_(std::move(setup)), outcome_(samples.size()), asked_(samples.size(), false) {
@@ -20,9 +30,11 @@ SetupSamples::SetupSamples(std::shared_ptr<const Mechanism> mechanism, const std
   };
   if (setup_.lanes)
     model_ = std::make_unique<LaneSampleModel>(std::move(mechanism), parameters_of, index, scene_varies,
-                                               setup_.tolerance > 0.0 ? setup_.tolerance : kLaneTolerance);
+                                               setup_.tolerance > 0.0 ? setup_.tolerance : kLaneTolerance,
+                                               typical_errors(samples));
   else if (GeometricSampleModel::serve(setup_.rung, *mechanism))
-    model_ = std::make_unique<GeometricSampleModel>(setup_.rung, std::move(mechanism), parameters_of, index);
+    model_ = std::make_unique<GeometricSampleModel>(setup_.rung, std::move(mechanism), parameters_of, index,
+                                                    typical_errors(samples));
   else
     model_ = std::make_unique<RungSampleModel>(setup_.rung, std::move(mechanism), parameters_of, index,
                                                setup_.options(), scene_varies);

@@ -12,6 +12,9 @@
 
 namespace boresight {
 
+// The RMS of each standing error over samples [SI].
+std::vector<double> typical_errors(const std::vector<Parameters>& samples);
+
 class SetupSamples {
  public:
   // samples must outlive it. scene_varies: whether more than contacts does.

@@ -63,7 +63,7 @@ SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism) {
   } else {
     axis.fail("values", "values = [...], or from, to and count");
   }
-  result.unit = axis.unit_as_written(axis.has("values") ? "values" : "from");
+  result.unit = unit_to_say(mechanism, result.parameters, axis.unit_as_written(axis.has("values") ? "values" : "from"));
   // The same value twice would be the same point twice.
   if (std::set<double>(result.values.begin(), result.values.end()).size() != result.values.size())
     axis.fail(axis.has("values") ? "values" : "to", "values that differ from one another");

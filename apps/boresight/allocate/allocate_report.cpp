@@ -28,6 +28,10 @@ std::string index_text(const AllocateStudy& s, double value) {
   return std::isfinite(value) ? readable_as(value, s.study.index.si_unit(), s.plan.requirement.unit) : "none";
 }
 
+std::string limit_text(const AllocateStudy& s) {
+  return readable_limit(s.plan.requirement.limit, s.study.index.si_unit(), s.plan.requirement.unit);
+}
+
 std::vector<const Allocation*> all_of(const AllocateStudy& s) {
   return {&s.result.chosen, &s.result.worst_case, &s.result.root_sum_square};
 }
@@ -38,7 +42,7 @@ report::Table comparison_table(const AllocateStudy& s) {
       .caption = fmt::format("The same limit, {}. Share within it: by the {} samples of the search, scaled to "
                              "the confirming rung; least limit: kept with the room that a confirmation "
                              "needs.",
-                             index_text(s, s.plan.requirement.limit), s.plan.samples),
+                             limit_text(s), s.plan.samples),
       .columns = {{"judged by"}, {"price"}, {"share within the limit"}, {"least limit kept"}, {"verdict"}}};
   for (const Allocation* a : all_of(s)) {
     const bool none = !a->feasible && a != &s.result.chosen;
@@ -155,13 +159,13 @@ report::Table confirmation_table(const AllocateStudy& s) {
 
 std::string requirement_text(const AllocateStudy& s) {
   return fmt::format("{} at or below {} in {:g} % of all cases, with {:g} % confidence", s.study.index.title(),
-                     index_text(s, s.plan.requirement.limit), 100.0 * s.plan.requirement.probability,
-                     100.0 * s.plan.requirement.confidence);
+                     limit_text(s), 100.0 * s.plan.requirement.probability, 100.0 * s.plan.requirement.confidence);
 }
 
 std::string option_text(const AllocateStudy& s, const Allocation& a, std::size_t joint) {
   const AllocationEntry& entry = s.plan.entries[joint];
-  if (entry.is_continuous()) return a.tolerance.empty() ? "" : readable(a.tolerance[joint], entry.unit());
+  if (entry.is_continuous())
+    return a.tolerance.empty() ? "" : readable_as(a.tolerance[joint], entry.unit(), entry.said_in);
   return a.choice.empty() ? "" : entry.options[static_cast<std::size_t>(a.choice[joint])].name;
 }
 

@@ -104,7 +104,8 @@ report::Chart waterfall_chart(const BudgetStudy& s, const Budget& b) {
     chart.series.push_back(std::move(series));
   }
   if (headline_answer(b) != nullptr) {
-    chart.lines.push_back({'x', b.headline.limit * unit.per_si, "limit " + budget_value(s, b.headline.limit)});
+    chart.lines.push_back(
+        {'x', b.headline.limit * unit.per_si, "limit " + budget_limit(s, b.headline.limit, b.headline.unit)});
     farthest = std::max(farthest, b.headline.limit / level);
   }
   constexpr double kRoomForText = 0.15;
@@ -143,7 +144,8 @@ report::Chart distribution_chart(const BudgetStudy& s, const Budget& b) {
   curve_of("mixed", pooled, report::Style::line);
   curve_of("ensemble", maxima, report::Style::steps);
   if (headline_answer(b) != nullptr)
-    chart.lines.push_back({'x', b.headline.limit * unit.per_si, "limit " + budget_value(s, b.headline.limit)});
+    chart.lines.push_back(
+        {'x', b.headline.limit * unit.per_si, "limit " + budget_limit(s, b.headline.limit, b.headline.unit)});
   return chart;
 }
 

@@ -115,13 +115,17 @@ std::string budget_value(const BudgetStudy& s, double value) {
   return readable_as(value, s.study.index.si_unit(), written);
 }
 
+std::string budget_limit(const BudgetStudy& s, double value, const std::string& written) {
+  return readable_limit(value, s.study.index.si_unit(), written);
+}
+
 std::string requirement_sentence(const BudgetStudy& s, const RequirementAnswer& r) {
   const auto in_its_unit = [&](double value) {
     return r.asked.unit.empty() ? budget_value(s, value) : readable_as(value, s.study.index.si_unit(), r.asked.unit);
   };
   std::string text =
       fmt::format("{}: {}, limit {}: {}", requirement_title(s, r.asked), in_its_unit(r.level.level.value),
-                  in_its_unit(r.asked.limit), r.compliance.met ? "met" : "not shown to be met");
+                  budget_limit(s, r.asked.limit, r.asked.unit), r.compliance.met ? "met" : "not shown to be met");
   if (r.compliance.met)
     text += fmt::format(" with {} confidence, margin {}", percent(r.asked.confidence),
                         readable_share(r.margin() / r.asked.limit));
@@ -194,7 +198,7 @@ report::Document budget_report(const BudgetStudy& s) {
                             .note = fmt::format("{}, {}; {}", to_string(b.headline.interpretation),
                                                 percent(b.headline.probability), interval_text(s, headline.level))});
   if (const RequirementAnswer* answer = headline_answer(b)) {
-    document.facts.push_back({.label = "Limit", .value = budget_value(s, b.headline.limit)});
+    document.facts.push_back({.label = "Limit", .value = budget_limit(s, b.headline.limit, b.headline.unit)});
     document.facts.push_back(
         {.label = "Margin", .value = readable_share(answer->margin() / b.headline.limit), .note = "of the limit"});
   }

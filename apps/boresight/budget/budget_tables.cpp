@@ -104,8 +104,9 @@ report::Table requirement_table(const BudgetStudy& s, const Budget& b) {
                   {"Source"}}};
   for (const RequirementAnswer& r : b.requirements)
     table.rows.push_back(
-        {requirement_title(s, r.asked), budget_value(s, r.asked.limit), budget_value(s, r.level.level.value),
-         interval_text(s, r.level.level), readable_share(r.margin() / r.asked.limit),
+        {requirement_title(s, r.asked), budget_limit(s, r.asked.limit, r.asked.unit),
+         budget_value(s, r.level.level.value), interval_text(s, r.level.level),
+         readable_share(r.margin() / r.asked.limit),
          r.judgement.by == Judgement::By::nothing
              ? std::string("nothing")
              : fmt::format("{:.4g} % with {} confidence", 100.0 * r.compliance.shown, percent(r.asked.confidence)),

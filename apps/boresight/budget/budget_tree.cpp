@@ -48,7 +48,7 @@ report::Section tree_section(const BudgetStudy& s, const Budget& b) {
     for (const std::string& name : p.holds) holds += (holds.empty() ? "" : ", ") + name;
     std::string indent;
     for (int k = 0; k < p.depth; ++k) indent += "– ";
-    table.rows.push_back({indent + p.name, holds, p.allocated > 0.0 ? budget_value(s, p.allocated) : "",
+    table.rows.push_back({indent + p.name, holds, p.allocated > 0.0 ? budget_limit(s, p.allocated, p.unit) : "",
                           budget_value(s, p.level.value), interval_text(s, p.level),
                           p.allocated > 0.0 ? budget_value(s, p.allocated - p.level.value) : "", answer_of(p),
                           budget_value(s, p.by_rule), of_parts(s, p)});
@@ -88,10 +88,11 @@ std::vector<std::string> tree_warnings(const BudgetStudy& s, const Budget& b) {
   for (const SubBudget& p : b.parts) {
     if (p.allocated > 0.0 && !p.compliance.met)
       out.push_back(fmt::format("the part {} comes to {} of {} allocated: {}", p.name, budget_value(s, p.level.value),
-                                budget_value(s, p.allocated), answer_of(p)));
+                                budget_limit(s, p.allocated, p.unit), answer_of(p)));
     if (p.allocated > 0.0 && p.parts_root_sum_square > p.allocated)
       out.push_back(fmt::format("what is allocated within {} is {} by root sum of squares, more than its own {}",
-                                p.name, budget_value(s, p.parts_root_sum_square), budget_value(s, p.allocated)));
+                                p.name, budget_value(s, p.parts_root_sum_square),
+                                budget_limit(s, p.allocated, p.unit)));
   }
   return out;
 }

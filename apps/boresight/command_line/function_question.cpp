@@ -53,7 +53,7 @@ AskedFunction function_of_mechanism(const FunctionQuestion& question) {
   try {
     inputs = inputs_named(*mechanism, question.inputs);
   } catch (const InputError& error) {
-    throw InputError(kGivenAsOption, "--input", error.found, error.expected, error.nearest);
+    throw InputError(kGivenAsOption, "--input " + error.key, error.found, error.expected, error.nearest);
   }
   RunOptions run = question.motion.run_options(*mechanism, command.rung);
   RungChoice choice = StudyRun(mechanism, run_options_of(command, index, {}, run))

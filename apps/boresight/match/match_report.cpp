@@ -62,7 +62,7 @@ report::Table constraint_table(const MatchStudy& s) {
     const std::string unit = c.measure.si_unit(s.study.index);
     const double value = s.result.constraint_values[k];
     table.rows.push_back({c.measure.title(s.study.index), readable_as(value, unit, c.unit),
-                          readable_as(c.at_most, unit, c.unit), value <= c.at_most * (1 + 1e-6) ? "yes" : "no",
+                          readable_limit(c.at_most, unit, c.unit), value <= c.at_most * (1 + 1e-6) ? "yes" : "no",
                           s.result.active[k] ? "yes" : "no"});
   }
   return table;

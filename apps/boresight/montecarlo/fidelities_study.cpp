@@ -193,7 +193,7 @@ int run_fidelities(const SeveralRungs& s) {
       tell(
           "  {} at or below {} in {:g} % of all cases: {}; by the samples of {} at least {:.4g} % with {:g} % "
           "confidence\n",
-          s.question.study.index.title(), readable_as(plan.requirement->limit, unit, plan.requirement->unit),
+          s.question.study.index.title(), readable_limit(plan.requirement->limit, unit, plan.requirement->unit),
           100.0 * plan.requirement->probability, met ? "met" : "not shown to be met", top, 100.0 * shown,
           100.0 * plan.requirement->confidence);
     tell("  gain measured: {:.3g} ({:.1f} s of CPU)\n", o.measured_gain(), o.spent);

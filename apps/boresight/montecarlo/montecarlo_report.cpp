@@ -43,7 +43,7 @@ std::string far_limit(const MonteCarloStudy& s, const std::vector<double>& sorte
   if (!s.plan.requirement || limit_is_drawn(s, sorted)) return "";
   const double limit = s.plan.requirement->limit;
   return fmt::format(" The required limit, {}, lies far {} all samples and is not drawn.",
-                     readable_as(limit, s.study.index.si_unit(), s.plan.requirement->unit),
+                     readable_limit(limit, s.study.index.si_unit(), s.plan.requirement->unit),
                      limit > sorted.back() ? "above" : "below");
 }
 
@@ -313,10 +313,11 @@ std::string readable_interval(const ReportedInterval& i, const std::string& si_u
 std::string verdict_sentence(const MonteCarloStudy& s) {
   const Requirement& asked = *s.plan.requirement;
   const RequirementVerdict& found = *s.estimates.requirement;
-  std::string text = fmt::format(
-      "Wanted: {} at or below {} in {} of all cases, with {} confidence: {}.", s.study.index.title(),
-      readable_as(asked.limit, s.study.index.si_unit(), asked.unit), fmt::format("{:g} %", 100.0 * asked.probability),
-      fmt::format("{:g} %", 100.0 * asked.confidence), found.met ? "met" : "not shown to be met");
+  std::string text =
+      fmt::format("Wanted: {} at or below {} in {} of all cases, with {} confidence: {}.", s.study.index.title(),
+                  readable_limit(asked.limit, s.study.index.si_unit(), asked.unit),
+                  fmt::format("{:g} %", 100.0 * asked.probability), fmt::format("{:g} %", 100.0 * asked.confidence),
+                  found.met ? "met" : "not shown to be met");
   if (std::isfinite(found.probability.value) && found.judgement.by == Judgement::By::nothing)
     text += fmt::format(" The share is {}.", readable_near_all(found.probability.value));
   else if (std::isfinite(found.probability.value))

@@ -357,12 +357,15 @@ class MonteCarloVerb : public Verb {
                              {"fewest_samples", s.estimates.requirement->fewest_samples},
                              {"model_error", s.estimates.requirement->model_error},
                              {"met_by_samples", s.estimates.requirement->met_by_samples}};
+      const Judgement& judgement = s.estimates.requirement->judgement;
       if (s.estimates.requirement->within_error)
         json["requirement"]["within_model_error"] = interval_json(*s.estimates.requirement->within_error);
-      const Judgement& judgement = s.estimates.requirement->judgement;
-      json["requirement"]["probability"]["confidence"] = judgement.confidence;
+      for (const char* share : {"probability", "within_model_error"}) {
+        if (!json["requirement"].contains(share)) continue;
+        json["requirement"][share]["confidence"] = judgement.confidence;
+        json["requirement"][share]["bounds"] = "one-sided, each at this confidence";
+      }
       if (!judgement.why.empty()) json["requirement"]["judged"] = judgement.why;
-      json["requirement"]["probability"]["bounds"] = "one-sided, each at this confidence";
     }
     for (const ErrorStatement& e : s.estimates.errors) {
       if (e.of == s.estimates.headline) json["error"] = error_json(e);

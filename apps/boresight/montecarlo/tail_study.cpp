@@ -166,7 +166,7 @@ int run_tail(const SeveralRungs& s) {
   const std::string unit = s.question.study.index.si_unit();
   const std::string sentence =
       fmt::format("{:.3g} of all exceed {} ({:.3g} to {:.3g}), unbiased for {}", p.value,
-                  readable_as(requirement.limit, unit, requirement.unit), p.low, p.high, asked.exact);
+                  readable_limit(requirement.limit, unit, requirement.unit), p.low, p.high, asked.exact);
   report::Document document = several_rungs_report(s, asked.exact, found.leaves_out, warnings);
   document.subtitle = "How rarely the " + s.question.study.index.title() + " exceeds its limit";
   document.verdict =

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "boresight/keys/units.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/pointing/relative_text.hpp"
 
 namespace boresight::app {
@@ -71,19 +72,47 @@ std::string readable(double value, const std::string& si_unit) {
   return digits(value * unit.per_si) + (unit.name.empty() ? "" : " " + unit.name);
 }
 
+namespace {
+
+// Whether a length or an angle is said as a share of one, "ppm": the scale of a drive.
+bool is_said_as_share(const std::string& si_unit, const std::string& written) {
+  if (si_unit != "m" && si_unit != "rad") return false;
+  try {
+    scale_of_unit(written, unit_called(si_unit));
+    return false;
+  } catch (const ValueFault&) {
+    return true;
+  }
+}
+
+}  // namespace
+
 DisplayUnit display_unit_as(const std::string& si_unit, double largest, const std::string& written) {
   if (written.empty()) return display_unit(si_unit, largest);
   const double per_si = 1.0 / scale_of_unit(written, unit_called(si_unit, true));
   const double shown = std::abs(largest) * per_si;
   constexpr double kFewZeros = 1e-3, kFewDigits = 1e5;
+  if (is_said_as_share(si_unit, written))
+    return shown < kFewDigits ? DisplayUnit{written, per_si} : DisplayUnit{"%", 1e2};
   if (shown != 0.0 && (shown < kFewZeros || shown >= kFewDigits)) return display_unit(si_unit, largest);
   return {written, per_si};
 }
 
 std::string readable_as(double value, const std::string& si_unit, const std::string& written) {
   const DisplayUnit unit = display_unit_as(si_unit, value, written);
-  if (written.empty() || unit.name != written || !std::isfinite(value)) return readable(value, si_unit);
-  return digits(value * unit.per_si) + " " + written;
+  if (!std::isfinite(value)) return kNotKnown;
+  if (unit.name == "%" || (!written.empty() && unit.name == written))
+    return digits(value * unit.per_si) + " " + unit.name;
+  return readable(value, si_unit);
+}
+
+std::string readable_limit(double value, const std::string& si_unit, const std::string& written) {
+  if (!std::isfinite(value)) return kNotKnown;
+  const DisplayUnit unit = written.empty()
+                               ? display_unit(si_unit, value)
+                               : DisplayUnit{written, 1.0 / scale_of_unit(written, unit_called(si_unit, true))};
+  // Twelve digits: more than anyone types, and fewer than the change of units leaves noise in.
+  return fmt::format("{:.12g}", value * unit.per_si) + (unit.name.empty() ? "" : " " + unit.name);
 }
 
 std::string readable_of_error(double value, const std::string& said_unit) {

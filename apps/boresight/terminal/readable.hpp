@@ -13,6 +13,9 @@ std::string readable(double value, const std::string& si_unit);
 // In the unit that the user wrote ("arcsec"), unless the number is long or full of zeros there; "": readable().
 std::string readable_as(double value, const std::string& si_unit, const std::string& written);
 
+// What the user asked for and is held against: with all digits that it was typed with, in the unit that it was typed in.
+std::string readable_limit(double value, const std::string& si_unit, const std::string& written);
+
 // The value of a standing error in its unit ("m", "rad", "K"); of a scale, "1", in ppm or percent.
 std::string readable_of_error(double value, const std::string& said_unit);
 std::string readable_arcsec(double radians);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "boresight/keys/numbers_together.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/option_check.hpp"
@@ -112,6 +113,9 @@ Run run(const std::shared_ptr<Mechanism>& mechanism, const std::optional<NamedPa
       options.sample_spacing > 0.0 ? app::history_refinement(mechanism->duration(), options.sample_spacing) : 1;
   options.sample_spacing /= static_cast<double>(every);
   const Parameters& values = parameters ? parameters->values : mechanism->parameters();
+  // Once all are set: one after the other they may not fit in between.
+  if (const auto impossible = impossible_numbers(mechanism->description(), values))
+    throw InputError({}, impossible->path, impossible->found, impossible->expected);
   Task task(progress);
   options.progress = [&task](const RunProgress& p) {
     task.tell(p.t, p.duration, "s of motion");

@@ -12,6 +12,7 @@
 
 #include "boresight/io/mechanism_sections.hpp"
 #include "boresight/keys/mechanism_keys.hpp"
+#include "boresight/keys/numbers_together.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
@@ -157,7 +158,7 @@ class Expansion {
       bearing.only(clearance_keys());
       if (bearing.has("sleeve_length")) sleeves += 0.5 * bearing.quantity("sleeve_length");
     }
-    cursor.require(span >= sleeves, "span", "at least half of both sleeves' lengths, at which the bearings touch");
+    cursor.require(span >= sleeves, "span", kSleevesApart);
   }
 
   std::vector<Cursor> of_universal(Cursor& cursor, std::size_t index) {

@@ -5,6 +5,7 @@
 #include "boresight/contact/normal_law.hpp"
 #include "boresight/io/mechanism_sections.hpp"
 #include "boresight/keys/mechanism_keys.hpp"
+#include "boresight/keys/numbers_together.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
@@ -36,19 +37,9 @@ class Assumed {
   std::vector<AssumedValue>& list_;
 };
 
-// Whether the law in force takes this restitution: its damping may grow without bound as restitution vanishes.
-void check_restitution(Cursor& cursor, double restitution, const std::string& law, const std::string& dissipation) {
-  const NormalLawEntry& entry = normal_law(dissipation.empty() ? law : dissipation);
-  if (entry.damping_factor == nullptr || entry.lowest_restitution < 0.0 || restitution >= kLeastRestitution) return;
-  std::string others;
-  for (const NormalLawEntry& other : normal_laws())
-    if (other.geometry == ContactGeometry::point && other.damping_factor != nullptr && other.lowest_restitution < 0.0 &&
-        other.damping_factor(0.0) > 0.0)
-      others += (others.empty() ? "" : ", ") + std::string(other.name);
-  char least[40];
-  std::snprintf(least, sizeof least, "%g", kLeastRestitution);
-  cursor.fail("restitution", std::string("a number from ") + least + " to 1 with law = " + in_quotes(entry.name) +
-                                 ", whose damping grows without bound towards 0; laws that take 0: " + others);
+template <typename Owner>
+void require(const Cursor& cursor, const NumbersTogether<Owner>& together, const Owner& numbers) {
+  cursor.require(together.hold(numbers), together.key, together.expected);
 }
 
 ContactParameters read_contact(Cursor& cursor, std::string& law, std::string& dissipation,
@@ -72,7 +63,7 @@ ContactParameters read_contact(Cursor& cursor, std::string& law, std::string& di
         cursor.fail_found(key, "it with law = " + in_quotes(law), "it only with law = \"kelvin-voigt\"");
   }
   p.restitution = cursor.number("restitution");
-  check_restitution(cursor, p.restitution, law, dissipation);
+  if (const auto expected = refused_restitution(law, dissipation, p.restitution)) cursor.fail("restitution", *expected);
   p.young = pair(cursor.quantities("young"));
   p.poisson = pair(cursor.numbers("poisson"));
   p.density = cursor.quantity("density");
@@ -102,8 +93,8 @@ FrictionParameters read_friction(Cursor& cursor, std::string& law, std::vector<A
   p.coefficient = cursor.number("coefficient");
   p.static_speed = cursor.quantity("static_speed");
   p.dynamic_speed = cursor.quantity("dynamic_speed");
-  cursor.require(p.dynamic_speed > p.static_speed, cursor.has("dynamic_speed") ? "dynamic_speed" : "static_speed",
-                 "dynamic_speed above static_speed");
+  cursor.require(kSpeedsInOrder.hold(p), cursor.has("dynamic_speed") ? "dynamic_speed" : "static_speed",
+                 kSpeedsInOrder.expected);
   const FrictionLawEntry& entry = friction_law(law);
   const auto belongs = [&](const char* key, bool allowed, const char* to) {
     if (cursor.has_by_name(key) && !allowed) cursor.fail_found(key, "it with law = " + in_quotes(law), to);
@@ -112,7 +103,7 @@ FrictionParameters read_friction(Cursor& cursor, std::string& law, std::vector<A
   const char* peaked = "it only with a law that has a static peak: bengisu-akay, brown-mcphee, lugre";
   if (belongs("static_coefficient", entry.peak, peaked)) {
     p.static_coefficient = cursor.number("static_coefficient");
-    cursor.require(p.static_coefficient >= p.coefficient, "static_coefficient", "a number of at least coefficient");
+    require(cursor, kStictionAboveFriction, p);
   }
   if (belongs("stribeck_speed", entry.peak, peaked)) p.stribeck_speed = cursor.quantity("stribeck_speed");
   const char* bristly = "it only with law = \"lugre\"";
@@ -148,8 +139,8 @@ void read_slider(Cursor& cursor, const JointDescription& joint, ClearanceDescrip
   p.length = cursor.quantity("length");
   p.width_gap = cursor.quantity("width_gap");
   p.height_gap = cursor.quantity("height_gap");
-  cursor.require(p.width_gap < 0.5 * p.width, "width_gap", "less than half of width");
-  cursor.require(p.height_gap < 0.5 * p.height, "height_gap", "less than half of height");
+  require(cursor, kGapWithinWidth, p);
+  require(cursor, kGapWithinHeight, p);
   const Vec3 width = cursor.direction("width_direction");
   const double skew = width.dot(joint.axis);
   if (std::abs(skew) > 1e-3)
@@ -221,13 +212,13 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
   } else {
     p.radial = cursor.quantity("radial");
     p.journal_radius = cursor.quantity("journal_radius");
-    cursor.require(p.radial < p.journal_radius, "radial", "less than journal_radius");
+    require(cursor, kPlayWithinJournal, p);
   }
   if (caps || pad) p.axial = cursor.quantity("axial");
   const bool sleeve = !ball && !pad && !slider;
   if (caps || (sleeve && cursor.has("cap_radius"))) {
     p.cap_radius = cursor.quantity("cap_radius");
-    cursor.require(p.cap_radius > p.journal_radius + p.radial, "cap_radius", "more than journal_radius + radial");
+    require(cursor, kCapsBeyondBore, p);
   }
   if (caps || (sleeve && (clearance.axes == JournalAxes::free || cursor.has("sleeve_length")))) {
     p.sleeve_length = cursor.quantity("sleeve_length");

@@ -146,10 +146,10 @@ struct Measured {
   double exceeded =
       0.0;  // by how much the largest position error of the dynamic rung exceeds the static one's, relative
   PerQuantity of_linearity =
-      {};             // what the dynamic rung states for its own model, relative to what is said: both are linear in the offsets
-  double bent = 0.0;  // the largest of these, of what is more than next to nothing
-  bool keeps = true;  // false: its caller wanted it to stop
-  bool found = true;  // false: it could not be measured
+      {};  // what the dynamic rung states for its own model, relative to what is said: both are linear in the offsets
+  double bent = 0.0;             // the largest of these, of what is more than next to nothing
+  bool keeps = true;             // false: its caller wanted it to stop
+  bool found = true;             // false: it could not be measured
   std::int64_t evaluations = 0;  // of the dynamic rung, for it
 };
 

@@ -55,5 +55,26 @@ TEST(AllocationPlan, TakesATolerancesTightestAndWidestInThisOrderAndAboveNothing
         << wrong;
 }
 
+// A share of what the drive does, though it is computed in the drive's radians.
+TEST(AllocationPlan, SaysTheToleranceOfAScaleInTheUnitOfAShare) {
+  const MechanismDescription mechanism = read_mechanism(BORESIGHT_EXAMPLES "/3-rrcpr/tolerances.toml");
+  const auto said_in = [&](const std::string& parameter, const std::string& tolerance) {
+    Document document = Document::from_text(R"([allocate]
+requirement = { limit = "0.5 mm", probability = 0.95, confidence = 0.9 }
+[[allocate.error]]
+parameter = ")" + parameter + "\"\ntolerance = " +
+                                                tolerance + "\ncost = { law = \"reciprocal\", b = 0.1 }\n",
+                                            "study.toml");
+    Cursor root(document);
+    Study study;
+    study.index.quantity = "position_error";
+    return read_allocation_plan(root, study, mechanism, [](const Setting&) {}).entries.at(0).said_in;
+  };
+  EXPECT_EQ(said_in("error.A1.scale", R"(["20 ppm", "400 ppm"])"), "ppm");
+  EXPECT_EQ(said_in("error.A1.scale", "[2e-5, 4e-4]"), "ppm");
+  EXPECT_EQ(said_in("error.A1.scale", R"(["0.002 %", "0.04 %"])"), "%");
+  EXPECT_EQ(said_in("error.A1.zero", R"(["2e-5 rad", "4e-4 rad"])"), "") << "as people read radians";
+}
+
 }  // namespace allocation_plan_test
 }  // namespace boresight

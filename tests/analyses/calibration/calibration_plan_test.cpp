@@ -5,6 +5,7 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/calibration/fitted_parameter.hpp"
 
 namespace boresight {
 namespace calibration_plan_test {
@@ -47,6 +48,12 @@ TEST(CalibrationPlan, TakesAPriorAsAShareOfWhatHasNoUnitToo) {
   ASSERT_EQ(plan.parameters.size(), 2u);
   EXPECT_TRUE(plan.parameters[0].prior_is_share);
   EXPECT_NEAR(*plan.parameters[0].prior, 0.2, 1e-15);
+}
+
+TEST(CalibrationPlan, SaysAScaleWithoutAUnitInPartsPerMillion) {
+  const MechanismDescription errors = read_mechanism(BORESIGHT_EXAMPLES "/3-rrcpr/tolerances.toml");
+  EXPECT_EQ(fitted_parameter(errors, "error.A1.scale", 0.0).written_unit, "ppm");
+  EXPECT_EQ(fitted_parameter(errors, "error.A1.zero", 0.0).written_unit, "");
 }
 
 TEST(CalibrationPlan, RefusesACandidateThatSetsWhatIsFitted) {

@@ -92,6 +92,17 @@ TEST(IndexFunction, RefusesPointsOfAnotherSizeAndValuesThatTheMechanismDoesNotTa
   EXPECT_EQ(refusal_of(f, {1e-4, 1.0}), "taken");
 }
 
+// A journal of 10 mm: 9 mm of play alone fit into it, and not within the caps of 12 mm.
+TEST(IndexFunction, RefusesValuesThatTheMechanismDoesNotTakeTogether) {
+  const IndexFunction f = function_of({kRadial, "clearance.F1.cap_radius"}, "perturbation");
+  EXPECT_THAT(refusal_of(f, {30e-3, 50e-3}), HasSubstr("less than journal_radius"));
+  EXPECT_THAT(refusal_of(f, {9e-3, 12e-3}),
+              HasSubstr("clearance.F1.cap_radius: found 12 mm with journal_radius = 10 mm, radial = 9 mm"));
+  EXPECT_EQ(refusal_of(f, {1e-4, 12e-3}), "taken");
+  EXPECT_THROW(f.at_all({{1e-4, 12e-3}, {9e-3, 12e-3}}, {}), InputError);
+  EXPECT_THROW(f.slopes_at(std::vector{9e-3, 12e-3}), InputError);
+}
+
 TEST(IndexFunction, SaysWhyARungHasNoSlopes) {
   EXPECT_EQ(function_of({kRadial}, "perturbation").why_no_slopes(), "");
   EXPECT_NE(function_of({kRadial}, "quasistatic").why_no_slopes(), "");

@@ -1,12 +1,15 @@
-// What lanes state of their own model where standing errors displace the pose by far more than the play does.
+// What lanes state of their own model where standing errors displace the pose by far more than the play does; what each sample of a batch
+// is said to have taken.
 #include "boresight_analyses/study/lane_sample_model.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
+#include "boresight/rungs/cpu_clock.hpp"
 #include "error_scenes.hpp"
 
 namespace boresight {
@@ -87,6 +90,44 @@ TEST(LaneSampleModel, StatesOfPlayAloneItsShareOfTheMechanismTimesWhatMagnifiesI
   const double share = found.value / built.mechanism->characteristic_length();
   EXPECT_GE(found.model_error, share);
   EXPECT_LT(found.model_error, 10.0 * share);
+}
+
+// Of 32 samples of one batch: scenes of their own, where masses scatter, are all prepared before the first motion ends.
+TEST(LaneSampleModel, SharesAmongSamplesWhatTheirBatchSpent) {
+  const auto mechanism = std::make_shared<const Mechanism>(
+      read_mechanism(BORESIGHT_EXAMPLES "/3-rrcpr/3-rrcpr.toml", {{"motion.duration", "50 ms"}}));
+  for (const bool scene_varies : {false, true}) {
+    const LaneSampleModel model(
+        mechanism,
+        [&](std::span<const double> values) {
+          Parameters p = mechanism->parameters();
+          p.clearance[0].radial = values[0];
+          if (scene_varies) p.payload_mass = 1e5 * values[0];
+          return p;
+        },
+        {"position_error", "max"}, scene_varies);
+    std::vector<double> radial(32);
+    std::vector<Sample> samples;
+    for (double& value : radial) {
+      value = 1e-4 + 2e-6 * static_cast<double>(samples.size());
+      samples.push_back({samples.size(), {&value, 1}});
+    }
+    const std::atomic<bool> stop{false};
+    Outcome first;
+    model.evaluate({samples.data(), 1}, {&first, 1}, stop);  // what is looked at once for all
+    std::vector<Outcome> outcomes(samples.size());
+    const double start = thread_cpu_seconds();
+    model.evaluate(samples, outcomes, stop);
+    const double spent = thread_cpu_seconds() - start;
+    double sum = 0.0, most = 0.0;
+    for (const Outcome& outcome : outcomes) {
+      ASSERT_EQ(outcome.status, Outcome::Status::done) << outcome.message;
+      sum += outcome.cpu_seconds;
+      most = std::max(most, outcome.cpu_seconds);
+    }
+    EXPECT_NEAR(sum, spent, 0.2 * spent) << scene_varies;
+    EXPECT_LT(most, 0.25 * spent) << scene_varies;
+  }
 }
 
 }  // namespace lane_sample_model_test

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight_analyses/study/failures.hpp"
@@ -72,6 +74,40 @@ TEST(SampleModel, FailsWhereAContactIsDeeperThanItsJournalIsThick) {
   }
 }
 
+// Each number alone may be in the file; a draw of several may be a mechanism that no reader takes. Its neighbours are none the worse for it.
+TEST(SampleModel, FailsWhereTheReaderWouldRefuseTheNumbersTogether) {
+  const auto mechanism = scene();
+  const auto parameters_of = [&](std::span<const double> values) {
+    Parameters p = mechanism->parameters();
+    p.clearance[0].radial = values[0];
+    p.clearance[0].cap_radius = values[1];
+    return p;
+  };
+  const std::atomic<bool> stop{false};
+  const std::vector<std::vector<double>> drawn = {{1e-4, 12e-3}, {3e-3, 12e-3}, {2e-4, 12e-3}, {1e-4, 10.05e-3}};
+  for (const char* rung : {"quasistatic", "perturbation"}) {
+    const auto model = sample_model(rung, mechanism, parameters_of, {"position_error", "max"}, {}, false);
+    std::vector<Sample> samples;
+    for (const std::vector<double>& values : drawn) samples.push_back({samples.size(), values});
+    std::vector<Outcome> together(samples.size());
+    std::vector<std::size_t> reached;
+    model->evaluate_each(samples, together, stop, [&](std::size_t k) { reached.push_back(k); });
+    std::sort(reached.begin(), reached.end());
+    EXPECT_EQ(reached, (std::vector<std::size_t>{0, 1, 2, 3})) << rung;
+    for (const std::size_t k : {0, 2}) {
+      Outcome alone;
+      model->evaluate({&samples[k], 1}, {&alone, 1}, stop);
+      EXPECT_EQ(together[k].status, Outcome::Status::done) << rung << together[k].message;
+      EXPECT_EQ(together[k].value, alone.value) << rung;
+    }
+    for (const std::size_t k : {1, 3}) {
+      EXPECT_EQ(together[k].status, Outcome::Status::failed) << rung;
+      EXPECT_NE(together[k].message.find("expected more than journal_radius + radial"), std::string::npos)
+          << rung << together[k].message;
+    }
+  }
+}
+
 // What rosenbrock took where it took over is no step for rk4: each sample then goes the way of its own run.
 TEST(CommonStep, IsNoneWhereRosenbrockTakesOver) {
   const auto mechanism =
@@ -102,6 +138,18 @@ TEST(CommonStep, TakesWhatAnEarlierStartFoundAndFliesTheOthersOnly) {
   EXPECT_EQ(common_step("perturbation", mechanism, samples, options, {own, 0.5 * own, 0.0}, found), 0.5 * own)
       << "the smallest";
   EXPECT_EQ(flown, (std::vector<std::size_t>{2}));
+}
+
+// Beside a draw that no file may hold, of whose motion nobody asks.
+TEST(CommonStep, IsThatOfTheSamplesThatAreFollowed) {
+  const auto mechanism = scene();
+  std::vector<Parameters> samples(2, mechanism->parameters());
+  const double alone = common_step("perturbation", mechanism, samples, {});
+  samples[1].clearance[0].radial = 30e-3;
+  std::vector<std::size_t> flown;
+  EXPECT_EQ(common_step("perturbation", mechanism, samples, {}, {}, [&](std::size_t k, double) { flown.push_back(k); }),
+            alone);
+  EXPECT_EQ(flown, (std::vector<std::size_t>{0}));
 }
 
 TEST(Failures, TellTheReasonOfTheFirstSampleWhateverTheOrder) {

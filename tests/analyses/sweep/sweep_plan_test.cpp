@@ -142,6 +142,8 @@ TEST(SweepOfErrors, TakesTheScaleOfADriveAsAShare) {
   ASSERT_EQ(shares.values.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(shares.values[k], 1e-4 * static_cast<double>(k + 1), 1e-15);
   EXPECT_EQ(shares.unit, "ppm");
+  EXPECT_EQ(values("error.A1.scale", "1e-4, 2e-4").unit, "ppm") << "not the radians of its drive";
+  EXPECT_EQ(values("error.A1.zero", "\"1e-4 rad\", \"2e-4 rad\"").unit, "rad");
   EXPECT_THROW(values("error.A1.zero", "\"100 ppm\""), InputError);  // an angle
 }
 

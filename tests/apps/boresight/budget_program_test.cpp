@@ -71,6 +71,17 @@ TEST_F(BudgetProgram, AnswersARequirementThatIsMetAndWritesWhatItSays) {
   EXPECT_THAT(text("out/levels.csv"), HasSubstr("\nRPE,half cone,temporal,"));
 }
 
+TEST_F(BudgetProgram, SaysLimitsAndAllocationsAsTheyAreTyped) {
+  study(requirement("3.00096 deg") +
+        "[[budget.contributor]]\nname = \"mounting\"\nclass = \"bias\"\nvalue = \"60 arcsec\"\n"
+        "[[budget.part]]\nname = \"base\"\ncontributors = [\"mounting\"]\nallocated = \"0.10096 mrad\"\n");
+  const Ended ended = call(arguments());
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out + ended.err,
+              AllOf(HasSubstr("limit 3.00096 deg: met"), HasSubstr(" of 0.10096 mrad allocated")));
+  EXPECT_THAT(text("out/report.html"), AllOf(HasSubstr("3.00096 deg"), HasSubstr("0.10096 mrad")));
+}
+
 TEST_F(BudgetProgram, AnswersNoWhereARequirementIsNotMetAndReusesTheRuns) {
   study(requirement("3 deg"));
   ASSERT_EQ(call(arguments({"--quiet"})).status, 0);

@@ -102,6 +102,16 @@ TEST_F(InputProgram, AnEmptyValueIsRefusedAndNotTakenForNone) {
   expect_refused({"montecarlo", "study.toml", "--from", ""}, "--from: found \"\"");
 }
 
+TEST_F(InputProgram, ServeSaysWhichInputItRefuses) {
+  const auto serve = [&](const std::string& first, const std::string& second) {
+    return std::vector<std::string>{"serve", four_bar_, "--input", first, "--input", second, "--port", "0"};
+  };
+  const std::string radial = "clearance.D.radial";
+  expect_refused(serve(radial, radial), "--input " + radial + ": found it a second time, expected each input once");
+  expect_refused(serve(radial, "clearance.D.radical"),
+                 "--input clearance.D.radical: found no number that studies vary, expected ");
+}
+
 TEST_F(InputProgram, AnUnknownOptionBeforeAnyVerbIsNamed) {
   expect_refused({"--hlep"}, "--hlep is not an option of boresight; did you mean --help?");
   expect_refused({"--rung", "multibody", "run", four_bar_}, "found --rung before a verb");

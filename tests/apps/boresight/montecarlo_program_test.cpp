@@ -140,6 +140,22 @@ TEST_F(MonteCarloProgram, WhatEverySampleWouldRefuseIsRefusedAtTheStart) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
+TEST_F(MonteCarloProgram, SaysTheLimitAsItIsTyped) {
+  study("typed.toml", 20, "requirement = { limit = \"1.00096 mm\", probability = 0.5, confidence = 0.9 }");
+  EXPECT_EQ(call(quick("typed.toml", "typed")).status, 0);
+  EXPECT_THAT(json("typed/report.json").dump(), HasSubstr("at or below 1.00096 mm in 50 % of all cases"));
+}
+
+TEST_F(MonteCarloProgram, BothSharesOfARequirementAreOneSidedAtItsConfidence) {
+  study("both.toml", 60, "requirement = { limit = \"1 mm\", probability = 0.5, confidence = 0.9 }");
+  ASSERT_EQ(call(quick("both.toml", "both")).status, 0);
+  const nlohmann::json requirement = json("both/summary.json")["requirement"];
+  for (const char* share : {"probability", "within_model_error"}) {
+    EXPECT_EQ(requirement.at(share).at("confidence"), 0.9) << share;
+    EXPECT_EQ(requirement.at(share).at("bounds"), "one-sided, each at this confidence") << share;
+  }
+}
+
 TEST_F(MonteCarloProgram, ARequirementThatIsNotMetIsStatusOneAndWilksIsToldBefore) {
   study("tight.toml", 100, "requirement = { limit = \"1 um\", probability = 0.9973, confidence = 0.95 }");
   std::vector<std::string> arguments = quick("tight.toml", "out");

@@ -48,11 +48,27 @@ TEST(Readable, StaysInTheUnitThatTheUserWrote) {
   EXPECT_DOUBLE_EQ(display_unit_as("rad", 1e-4, "arcsec").per_si * arcsec, 1.0);
 }
 
+TEST(Readable, ALimitKeepsTheDigitsThatItWasTypedWith) {
+  EXPECT_EQ(readable_limit(45.96 * 1e-6, "rad", "urad"), "45.96 urad");
+  EXPECT_EQ(readable_limit(29.95 * 1e-3, "m", "mm"), "29.95 mm");
+  EXPECT_EQ(readable_limit(15.0625 * 4.84813681109536e-6, "rad", "arcsec"), "15.0625 arcsec");
+  EXPECT_EQ(readable_limit(0.0005 * 1e-3, "m", "mm"), "0.0005 mm") << "in the unit that it was typed in";
+  EXPECT_EQ(readable_limit(1234567.0 * 1e-6, "m", "um"), "1234567 um");
+  EXPECT_EQ(readable_limit(1.2345, "1", ""), "1.2345");
+}
+
 TEST(Readable, AScaleIsAShare) {
   EXPECT_EQ(readable_of_error(2.5e-4, "1"), "250 ppm");
   EXPECT_EQ(readable_of_error(-3e-5, "1"), "-30 ppm");
   EXPECT_EQ(readable_of_error(2e-3, "1"), "0.2 %");
   EXPECT_EQ(readable_of_error(2.5e-4, "rad"), "0.25 mrad");
+}
+
+TEST(Readable, AScaleInPartsPerMillionIsNeverALength) {
+  EXPECT_EQ(readable_as(1.86e-4, "m", "ppm"), "186 ppm");
+  EXPECT_EQ(readable_as(0.0, "m", "ppm"), "0 ppm");
+  EXPECT_EQ(readable_as(0.25, "m", "ppm"), "25 %");
+  EXPECT_EQ(readable_as(5e-10, "rad", "ppm"), "0.0005 ppm");
 }
 
 TEST(Readable, ArcsecondsAndShares) {

@@ -75,6 +75,18 @@ class Python(unittest.TestCase):
                 p["clearance.F1.radial"] = value
             self.assertEqual(caught.exception.key, "clearance.F1.radial")
 
+    def test_numbers_that_do_not_fit_together_are_refused_where_they_are_computed_with(self):
+        m = bs.Mechanism(MECHANISM, SHORT)
+        p = m.parameters()
+        p["clearance.F1.radial"] = "30 mm"  # of a journal of 10 mm, which may yet be set
+        f = bs.Function(m, ["clearance.F1.radial", "clearance.F1.cap_radius"], rung="perturbation")
+        for key, wrong in (("radial", lambda: bs.run(m, p, rung="quasistatic")),
+                           ("cap_radius", lambda: f([9e-3, 16e-3])),
+                           ("cap_radius", lambda: f.batch([[1e-4, 16e-3], [9e-3, 16e-3]]))):
+            with self.assertRaises(bs.InputError) as caught:
+                wrong()
+            self.assertEqual(caught.exception.key, "clearance.F1." + key)
+
     def test_every_number_has_the_range_of_its_key(self):
         for name in ("3-rrcpr/3-rrcpr.toml", "bearing-pairs/gimbal.toml", "hexapod/hexapod.toml",
                      "altaz-gimbal/altaz-gimbal.toml", "crank-slider/crank-slider.toml", "pendulum/pendulum.toml"):

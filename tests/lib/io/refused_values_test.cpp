@@ -180,6 +180,16 @@ TEST(RefusedValue, NamesTheNearestName) {
   });
 }
 
+TEST(RefusedValue, CountsTheLettersOfANameAndNotTheirBytes) {
+  const auto named = [](int letters) {
+    std::string name;
+    for (int k = 0; k < letters; ++k) name += "ж";
+    return error_of(kGood + "[[error]]\nname = \"" + name + "\"\ndrive = \"P\"\nlaw = \"1\"\nvalue = \"0.1 mm\"\n");
+  };
+  EXPECT_EQ(named(100), "no error");
+  EXPECT_NE(named(101).find("expected a name of up to 100 characters"), std::string::npos) << named(101);
+}
+
 TEST(RefusedValue, RefusesWhatContradictsItself) {
   check({
       {"type = \"revolute\"\nconnects = [\"ground\", \"arm\"]\npoint = [\"0 mm\", \"0 mm\", \"0 mm\"]\naxis = [1, 0, "
