@@ -12,8 +12,8 @@ namespace {
 
 // What the tried errors displace bodies by: far above what the closure rounds, far below what bends once more.
 constexpr double kTried = 1e-4;
-// Draws of signs.
-constexpr int kDraws = 16;
+// Draws of signs, and of those at the size that is typical.
+constexpr int kDraws = 16, kDrawsOfSize = 4;
 
 double of_quantity(const PoseError& error, PointingQuantity quantity) {
   switch (quantity) {
@@ -44,10 +44,11 @@ StandingCurvature::StandingCurvature(const Mechanism& mechanism, const IdealMoti
         size_[e] = std::max(size_[e], moved.col(static_cast<Eigen::Index>(e)).norm());
     }
   Parameters tried = mechanism.parameters();
-  const auto look = [&] {
+  const auto look = [&](bool must_close) {
     const std::optional<PoseError> missed = missed_by_linearity(mechanism, commanded, influence, tried);
     double squares = 0.0;
     for (std::size_t e = 0; e < size_.size(); ++e) squares += std::pow(tried.error[e] * size_[e], 2);
+    if (!missed && !must_close) return;
     const double found = missed ? of_quantity(*missed, quantity) / squares : std::numeric_limits<double>::infinity();
     curvature_ = std::max(curvature_, found);
   };
@@ -57,7 +58,7 @@ StandingCurvature::StandingCurvature(const Mechanism& mechanism, const IdealMoti
   for (const std::size_t e : acting) {
     std::fill(tried.error.begin(), tried.error.end(), 0.0);
     tried.error[e] = kTried / size_[e];
-    look();
+    look(true);
   }
   std::vector<double> displaces(size_.size(), 0.0);
   double sum_of_squares = 0.0, largest = 0.0;
@@ -72,7 +73,12 @@ StandingCurvature::StandingCurvature(const Mechanism& mechanism, const IdealMoti
   for (int draw = 0; draw < kDraws && together; ++draw) {
     for (const std::size_t e : acting)
       tried.error[e] = (random() >> 63 ? kTried : -kTried) * displaces[e] / (std::sqrt(sum_of_squares) * size_[e]);
-    look();
+    look(true);
+  }
+  // Beside a singular pose even these bend by higher orders than the second, which a small displacement does not show.
+  for (int draw = 0; draw < kDrawsOfSize && !typical.empty() && sum_of_squares > kTried * kTried; ++draw) {
+    for (const std::size_t e : acting) tried.error[e] = random() >> 63 ? typical[e] : -typical[e];
+    look(false);
   }
 }
 

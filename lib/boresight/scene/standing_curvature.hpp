@@ -7,7 +7,8 @@
 //     curvature * sum over e of (eps_e s_e)^2,
 //
 // curvature the largest found among errors one by one, and all together with signs drawn at random, in the proportions in which they are typically
-// there: among many that are not, what two errors miss together would count for next to nothing.
+// there: among many that are not, what two errors miss together would count for next to nothing. Some of these at their typical size, where higher
+// orders may miss more.
 #pragma once
 
 #include "boresight/pointing/indices.hpp"

@@ -152,6 +152,7 @@ std::shared_ptr<const Mechanism> read(const std::string& text) {
   return std::make_shared<const Mechanism>(read_mechanism_text(text, "scene.toml"));
 }
 
+constexpr const char* kNoGravity = "gravity = [\"0 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\n";
 std::string body(const std::string& name, const std::string& more = "") {
   return "[[body]]\nname = \"" + name +
          "\"\nmass = \"1 kg\"\ncenter_of_mass = [\"0 m\", \"0 m\", \"0 m\"]\n"
@@ -167,7 +168,7 @@ std::string joint(const std::string& name, const std::string& type, const std::s
 // A four-bar that passes 0.2 mm from where its coupler and rocker lie in line: there its crank's length tells most, in a hundredth of the turn.
 std::string beside_a_toggle() {
   const std::string axis = "axis = [0, -1, 0]\n";
-  return "format = 1\nname = \"beside a toggle\"\n" + body("crank") + body("coupler") +
+  return "format = 1\nname = \"beside a toggle\"\n" + std::string(kNoGravity) + body("crank") + body("coupler") +
          body("rocker", "boresight = [-0.03217242721926692, 0.0, 0.9994823334740945]\n") +
          joint("A", "revolute", "\"ground\", \"crank\"", "\"0 m\", \"0 m\", \"0 m\"", axis + "driven = true\n") +
          joint("B", "revolute", "\"crank\", \"coupler\"",
@@ -187,7 +188,7 @@ TEST(GeometricErrors, SayWhatIsMissedInAMomentBesideASingularPose) {
   EXPECT_GT(exact, 1.1 * value);
   EXPECT_GE(linear.error.model_of(PointingQuantity::boresight_error) * value, 0.9 * (exact - value));
   GeometricOutcome out;
-  GeometricErrors(mechanism, PointingQuantity::boresight_error, TimeStatistic::max)
+  GeometricErrors(mechanism, PointingQuantity::boresight_error, TimeStatistic::max, 0.0, mechanism->parameters().error)
       .run({&mechanism->parameters(), 1}, {&out, 1});
   EXPECT_GE(out.model_error * out.value, 0.9 * (exact - value));
 }
@@ -196,7 +197,8 @@ TEST(GeometricErrors, SayWhatIsMissedInAMomentBesideASingularPose) {
 TEST(GeometricErrors, SayWhatTwoErrorsMissTogetherAmongManyThatAreNotThere) {
   const auto with = [](int others) {
     std::string text =
-        "format = 1\nname = \"arm\"\n" + body("arm") + body("tip", "boresight = [0, 0, 1]\n") +
+        "format = 1\nname = \"arm\"\n" + std::string(kNoGravity) + body("arm") +
+        body("tip", "boresight = [0, 0, 1]\n") +
         joint("A", "revolute", "\"ground\", \"arm\"", "\"0 m\", \"0 m\", \"0 m\"",
               "axis = [0, 0, 1]\ndriven = true\n") +
         joint("F", "fixed", "\"arm\", \"tip\"", "\"0.5 m\", \"0 m\", \"0.5 m\"", "") +
