@@ -163,9 +163,12 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
   const bool by_steps = beside.integrator.empty() || beside.integrator == "rk4";
   const double most_looks =
       2.0 + kMostSteps * static_cast<double>(result.cost.steps) / (by_steps ? kStepsBetweenLooks : kEndsBetweenLooks);
+  bool asked_to_stop = false;
   beside.progress = [&](const RunProgress&) {
-    return ++looks <= most_looks && (!options.progress || options.progress({mechanism.duration(), mechanism.duration(),
-                                                                            result.index.position_error.max}));
+    if (++looks > most_looks) return false;
+    asked_to_stop = asked_to_stop || (options.progress && !options.progress({mechanism.duration(), mechanism.duration(),
+                                                                             result.index.position_error.max}));
+    return !asked_to_stop;
   };
   if (by_steps && result.cost.steps > 0) beside.step = result.end_time / static_cast<double>(result.cost.steps);
 
@@ -176,7 +179,10 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
     for (const double times : {1.0, -1.0}) {
       looks = 0.0;
       const RunResult pushed = follow(pushed_by(beyond, times, mechanism.duration(), *tables), beside);
-      if (pushed.interrupted) return;
+      if (pushed.interrupted) {
+        result.interrupted = asked_to_stop;  // a run without its error is not done
+        return;
+      }
       raise(by_pushes, moved(result.index, pushed.index, length));
       if (times > 0.0) by_what_is_missed = by_pushes;
     }
@@ -196,7 +202,10 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
       if (!by_steps) neighbour.tolerance = share * tolerance;
       looks = 0.0;
       const RunResult scattered = follow(tables, neighbour);
-      if (scattered.interrupted) return;
+      if (scattered.interrupted) {
+        result.interrupted = asked_to_stop;
+        return;
+      }
       raise(by_chance, moved(result.index, scattered.index, length));
     }
   } catch (const ComputationError&) {

@@ -29,7 +29,7 @@ std::shared_ptr<const SceneTables> pushed_by(const SecondOrder& beyond, double t
 using FollowOn = std::function<RunResult(const std::shared_ptr<const SceneTables>&, const RunOptions&)>;
 
 // Sets result.error.model to what the pose misses and such motions show. options: of `result`; tolerance: as error control had it. Motions
-// that cannot be followed show nothing: result.error stays as it is.
+// that cannot be followed show nothing: result.error stays as it is. Where options.progress stops one, the result is interrupted.
 void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanism,
                             const std::shared_ptr<const SceneTables>& tables, const RunOptions& options,
                             double tolerance, const FollowOn& follow, RunResult& result);

@@ -31,5 +31,22 @@ TEST(StoppedComparison, IsNoResult) {
   }
 }
 
+// The same of the motions under what its forces miss, by which perturbation states its error.
+TEST(StoppedComparison, OfPushedMotionsIsNoResultEither) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "50 ms"}}));
+  bool compares = false;
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  options.progress = [&](const RunProgress& p) {
+    compares = p.t == p.duration;
+    return !compares;
+  };
+  const auto rung = make_rung("perturbation", mechanism);
+  EXPECT_TRUE(rung->run(mechanism->parameters(), options).interrupted);
+  EXPECT_TRUE(compares);
+  options.progress = {};
+  EXPECT_FALSE(rung->run(mechanism->parameters(), options).interrupted);
+}
+
 }  // namespace stopped_comparison_test
 }  // namespace boresight
