@@ -12,8 +12,8 @@ namespace {
 
 // What the tried errors displace bodies by: far above what the closure rounds, far below what bends once more.
 constexpr double kTried = 1e-4;
-// Draws of signs, and of those at the size that is typical.
-constexpr int kDraws = 16, kDrawsOfSize = 4;
+// Draws of signs, and of those at the size that is typical, each there and back: towards a singular pose more is missed than away from it.
+constexpr int kDraws = 16, kDrawsOfSize = 3;
 
 double of_quantity(const PoseError& error, PointingQuantity quantity) {
   switch (quantity) {
@@ -78,6 +78,8 @@ StandingCurvature::StandingCurvature(const Mechanism& mechanism, const IdealMoti
   // Beside a singular pose even these bend by higher orders than the second, which a small displacement does not show.
   for (int draw = 0; draw < kDrawsOfSize && !typical.empty() && sum_of_squares > kTried * kTried; ++draw) {
     for (const std::size_t e : acting) tried.error[e] = random() >> 63 ? typical[e] : -typical[e];
+    look(false);
+    for (const std::size_t e : acting) tried.error[e] = -tried.error[e];
     look(false);
   }
 }
