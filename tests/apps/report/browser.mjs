@@ -122,7 +122,7 @@ async function everyKind(width, dark) {
     named: [...document.querySelectorAll("button")].every((one) => (one.textContent.trim() || one.getAttribute("aria-label"))),
   }));
   expect(shown.dark === (dark ? "dark" : "light"), `${label}: follows the system's colours`);
-  expect(shown.plots === 23 && shown.drawn === shown.plots, `${label}: draws all 19 plots and 4 views, found ${shown.drawn} of ${shown.plots}`);
+  expect(shown.plots === 24 && shown.drawn === shown.plots, `${label}: draws all 20 plots and 4 views, found ${shown.drawn} of ${shown.plots}`);
   expect(shown.titled && shown.named, `${label}: every figure and button has a name`);
   await close();
 }
@@ -334,7 +334,7 @@ async function printing() {
   const { page, label, close } = await open("every-kind", { width: 1440, dark: true });
   await page.pdf({ path: path.join(pictures, "print.pdf"), format: "A4", preferCSSPageSize: false });
   const after = await page.evaluate(() => ({ drawn: document.querySelectorAll('.plot-holder[data-drawn="true"]').length, theme: document.documentElement.dataset.theme, printing: document.documentElement.className }));
-  expect(after.drawn === 19, `${label}: everything is drawn before printing, found ${after.drawn}`);
+  expect(after.drawn === 20, `${label}: everything is drawn before printing, found ${after.drawn}`);
   expect(after.theme === "dark" && !after.printing, `${label}: the page is as before after printing`);
   await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
   await page.emulateMedia({ media: "print" });
