@@ -146,10 +146,10 @@ struct Measured {
   double exceeded =
       0.0;  // by how much the largest position error of the dynamic rung exceeds the static one's, relative
   PerQuantity of_linearity =
-      {};  // what the dynamic rung states for its own model, relative to what is said: both are linear in the offsets
-  double bent = 0.0;             // the largest of these, of what is more than next to nothing
-  bool keeps = true;             // false: its caller wanted it to stop
-  bool found = true;             // false: it could not be measured
+      {};             // what the dynamic rung states for its own model, relative: both are linear in the offsets
+  double bent = 0.0;  // the largest of these, of what is more than next to nothing
+  bool keeps = true;  // false: its caller wanted it to stop
+  bool found = true;  // false: it could not be measured
   std::int64_t evaluations = 0;  // of the dynamic rung, for it
 };
 
@@ -333,7 +333,7 @@ class MeasuredByDynamics final : public Rung {
         largest = std::max(largest, unit(quantity) * motion.index.of(quantity).max);
       return largest;
     };
-    PerQuantity of_bound;  // how much of a bound the motions reach
+    PerQuantity of_bound;  // how much of a bound the motions reach: what they miss is a smaller share of that
     of_bound.fill(1.0);
     double largest_pose = 0.0;
     for (int k = 0; k < 3; ++k) largest_pose = std::max(largest_pose, largest_of(quantities[k]));
@@ -351,10 +351,8 @@ class MeasuredByDynamics final : public Rung {
         const double mean = sum / static_cast<double>(motions.size());
         const double own = index.of(quantity).*statistic, least = kNextToNothing * largest / unit(quantity);
         const double off = std::abs(own - mean) + kOfRange * (high - low);
-        // Relative to what is said, which may be far less than what there is. A bound is above what there is by less than all of it.
-        const double against = bounds_        ? std::max(own, least)
-                               : mean > least ? std::max(std::min(own, mean), least)
-                                              : largest / unit(quantity);
+        // Relative to what is said, which may be far less than what there is.
+        const double against = mean > least ? std::max(std::min(own, mean), least) : largest / unit(quantity);
         if (against > 0.0)
           model = std::max(model, off / against);
         else if (off > kRounding)  // where nothing moves at all, all of it is wrong
@@ -367,11 +365,12 @@ class MeasuredByDynamics final : public Rung {
     }
     for (const RunResult& motion : motions)
       for (int k = 0; k < kPointingQuantities; ++k)
-        measured.of_linearity[k] = std::max(measured.of_linearity[k], of_bound[k] * motion.error.model[k]);
+        measured.of_linearity[k] = std::max(measured.of_linearity[k], motion.error.model[k]);
     for (int k = 0; k < kPointingQuantities; ++k) measured.error.model[k] += measured.of_linearity[k];
     for (const auto quantity : quantities)
       if (unit(quantity) * largest_of(quantity) > kNextToNothing * largest_pose)
-        measured.bent = std::max(measured.bent, measured.of_linearity[static_cast<std::size_t>(quantity)]);
+        measured.bent = std::max(measured.bent, of_bound[static_cast<std::size_t>(quantity)] *
+                                                    measured.of_linearity[static_cast<std::size_t>(quantity)]);
     return measured;
   }
 
