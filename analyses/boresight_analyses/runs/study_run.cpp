@@ -181,12 +181,15 @@ RungChoice StudyRun::rung_of_scatter(const ScatterAsked& asked, SampleStore& sto
 
 std::unique_ptr<SampleModel> StudyRun::model_of_scatter(const std::string& rung, const RandomInputs& inputs,
                                                         const RunOptions& run) const {
+  std::vector<double> typical;
+  if (!mechanism_->description().errors.empty())
+    typical = typical_errors(draws_of_scatter(inputs, *mechanism_, kDrawsForPilot));
   return sample_model(
       rung, mechanism_,
       [mechanism = mechanism_, inputs](std::span<const double> values) {
         return inputs.parameters_with(*mechanism, values);
       },
-      options_.index, run, scene_varies(inputs), typical_errors(draws_of_scatter(inputs, *mechanism_, kDrawsForPilot)));
+      options_.index, run, scene_varies(inputs), typical);
 }
 
 std::unique_ptr<SampleModel> StudyRun::model_on(const std::string& rung, const RandomInputs& inputs,
