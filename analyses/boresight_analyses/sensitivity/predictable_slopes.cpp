@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/keys/numbers_together.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/perturbation/perturbation_system.hpp"
 #include "boresight/perturbation/predictability.hpp"
@@ -36,6 +37,9 @@ IndexSlopes predictable_slopes(const std::shared_ptr<const Mechanism>& mechanism
                                const std::vector<double>& values, const IndexChoice& index, double start_offset,
                                std::vector<std::vector<double>> errors) {
   const Parameters parameters = parameters_at(values);
+  // Each number alone may be in a file; of a mechanism that no file may hold there is no motion to follow.
+  if (const auto impossible = impossible_numbers(mechanism->description(), parameters))
+    throw ComputationError(impossible->text());
   const Predictability horizon = measure_predictability(mechanism, parameters);
   if (!horizon.measured) throw ComputationError(horizon.refusal);
   if (horizon.parted) throw ComputationError(beyond(horizon, mechanism->duration()));

@@ -128,6 +128,18 @@ TEST(ExactSlopes, AreThoseByNumbersOfContactsOnly) {
   EXPECT_THAT(study.local.parameters[2].exact_note, HasSubstr("contacts"));
 }
 
+// Of two parameters each of whose medians may be in a file: a play that reaches to the middle of its journal has no motion.
+TEST(ExactSlopes, AreRefusedAtMediansThatNoFileMayHoldTogether) {
+  Study study("20 ms");
+  const double journal = study.mechanism->parameters().clearance[0].journal_radius;
+  study.local.parameters[0].median = 1.5 * journal;
+  add_exact_slopes(study.mechanism, study.inputs, study.index, study.run, study.local);
+  for (int p = 0; p < 2; ++p) {
+    EXPECT_FALSE(std::isfinite(study.local.parameters[p].exact));
+    EXPECT_THAT(study.local.parameters[p].exact_note, HasSubstr("expected less than journal_radius"));
+  }
+}
+
 TEST(ExactSlopes, AreWithheldBeyondTheHorizonOfPredictability) {
   Study study("100 ms", 0.999);
   add_exact_slopes(study.mechanism, study.inputs, study.index, study.run, study.local);
