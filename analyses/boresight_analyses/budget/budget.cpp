@@ -142,7 +142,8 @@ class Maker {
     const MemberInterval simulated =
         all_alike ? MemberInterval{l.level.value, l.level.value}
                   : sizes.about_level(t.interpretation, probability, plan_.confidence, plan_.leave_out);
-    l.standing = standing_of(l.rule_interval, simulated, kRounding * largest_);
+    l.standing = standing_of({l.by_rule, l.rule_interval}, {l.level.value, simulated}, kRounding * largest_);
+    l.rule_over_level = rule_over_simulated(l.rule_interval, simulated);
     return l;
   }
 

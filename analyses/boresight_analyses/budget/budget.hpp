@@ -39,6 +39,7 @@ struct BudgetLevel {
   MemberInterval rule_interval = {};           // of by_rule: with other members of the attribution
   std::optional<double> integrated = {};       // of the total, but for maxima: the Gaussian with the table's moments
   RuleStanding standing = RuleStanding::fair;  // of the rule
+  MemberInterval rule_over_level = {};         // what other members leave of by_rule over the level
 };
 
 struct RequirementAnswer {

@@ -1,7 +1,9 @@
 #include "boresight_analyses/budget/classical.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "boresight_analyses/budget/half_cone.hpp"
 
@@ -78,7 +80,7 @@ ClassicalTotal total_of(std::span<const ClassicalLine> lines) {
 }
 
 const char* to_string(RuleStanding standing) {
-  static const char* const names[] = {"fair", "unsafe", "wasteful"};
+  static const char* const names[] = {"fair", "unsafe", "wasteful", "in doubt"};
   return names[static_cast<int>(standing)];
 }
 
@@ -87,11 +89,22 @@ RuleStanding standing_of(double by_rule, double simulated) {
   return by_rule > kWastefulAbove * simulated ? RuleStanding::wasteful : RuleStanding::fair;
 }
 
-RuleStanding standing_of(const MemberInterval& by_rule, const MemberInterval& simulated, double nothing) {
-  if (by_rule.low < nothing && simulated.low < nothing) return RuleStanding::fair;
-  if (standing_of(by_rule.high, simulated.low) == RuleStanding::unsafe) return RuleStanding::unsafe;
-  return standing_of(by_rule.low, simulated.high) == RuleStanding::wasteful ? RuleStanding::wasteful
-                                                                            : RuleStanding::fair;
+MemberInterval rule_over_simulated(const MemberInterval& by_rule, const MemberInterval& simulated) {
+  // Levels are no less than zero, whatever few members leave.
+  const double low = std::max(0.0, by_rule.low), least = std::max(0.0, simulated.low);
+  constexpr double kNoBound = std::numeric_limits<double>::infinity();
+  return {std::isfinite(simulated.high) && simulated.high > 0.0 ? low / simulated.high : 0.0,
+          std::isfinite(by_rule.high) && least > 0.0 ? by_rule.high / least : kNoBound};
+}
+
+RuleStanding standing_of(const LevelOfMembers& by_rule, const LevelOfMembers& simulated, double nothing) {
+  if (by_rule.value <= nothing && simulated.value <= nothing) return RuleStanding::fair;
+  const MemberInterval ratio = rule_over_simulated(by_rule.interval, simulated.interval);
+  if (ratio.high < kUnsafeBelow) return RuleStanding::unsafe;
+  if (ratio.low > kWastefulAbove) return RuleStanding::wasteful;
+  const bool fair = standing_of(by_rule.value, simulated.value) == RuleStanding::fair;
+  return fair && ratio.low >= 1.0 / kWastefulAbove && ratio.high <= kWastefulAbove ? RuleStanding::fair
+                                                                                   : RuleStanding::in_doubt;
 }
 
 }  // namespace boresight

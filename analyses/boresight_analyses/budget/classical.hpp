@@ -39,12 +39,22 @@ struct ClassicalTotal {
 };
 ClassicalTotal total_of(std::span<const ClassicalLine> lines);
 
-// How a level by rule stands against what was simulated. Of intervals: only as far as they leave no doubt; and what is both below `nothing`,
-// which rounding alone makes, is fair.
-enum class RuleStanding { fair, unsafe, wasteful };
+// How a level by rule stands against what was simulated. in_doubt: other members may tell otherwise.
+enum class RuleStanding { fair, unsafe, wasteful, in_doubt };
 const char* to_string(RuleStanding standing);
 inline constexpr double kUnsafeBelow = 0.98, kWastefulAbove = 1.2;  // times the simulated level
 RuleStanding standing_of(double by_rule, double simulated);
-RuleStanding standing_of(const MemberInterval& by_rule, const MemberInterval& simulated, double nothing);
+
+// A level as the members seen have it, and where it may lie with others.
+struct LevelOfMembers {
+  double value = 0.0;
+  MemberInterval interval = {};
+};
+// The rule over the simulation, from the least to the largest that the two intervals leave; the largest is infinite where they leave no bound.
+MemberInterval rule_over_simulated(const MemberInterval& by_rule, const MemberInterval& simulated);
+// Only as far as the members leave no doubt. Unsafe or wasteful: for every ratio that they leave. Fair: as the levels seen are, and by none of
+// these ratios off by a fifth (kWastefulAbove) to either side; that a rule is not 2 % too low takes more members than any budget has. What is
+// both below `nothing`, which rounding alone makes, is fair.
+RuleStanding standing_of(const LevelOfMembers& by_rule, const LevelOfMembers& simulated, double nothing);
 
 }  // namespace boresight

@@ -19,6 +19,7 @@ Json level_json(const BudgetStudy& s, const BudgetLevel& l, double probability) 
   json["by_rule_high"] = number_json(l.rule_interval.high);
   if (l.integrated) json["integrated"] = number_json(*l.integrated);
   json["rule_is"] = to_string(l.standing);
+  if (const std::string doubt = rule_doubt(s, l); !doubt.empty()) json["rule_doubt"] = doubt;
   json["source"] = kFromMembers;
   return json;
 }

@@ -16,6 +16,8 @@ std::string percent(double share);
 DisplayUnit budget_unit(const BudgetStudy& study, double largest);
 std::string interval_text(const BudgetStudy& study, const ReportedInterval& interval);
 std::string standing_text(RuleStanding standing, double by_rule, double simulated);
+// Why it cannot be told whether the rule is fair: what the members leave of it. "" where it can.
+std::string rule_doubt(const BudgetStudy& study, const BudgetLevel& level);
 const BudgetLevel& headline_level(const Budget& budget);
 const char* source_of(const Budget& budget, const ErrorReduction& reduction);
 

@@ -32,8 +32,10 @@ std::string counted_unsafe(const Budget& b) {
     return std::count_if(b.levels.begin(), b.levels.end(),
                          [&](const BudgetLevel& l) { return l.standing == standing; });
   };
-  return fmt::format("Against {} simulated levels the classical rule is unsafe in {} and wasteful in {}.",
-                     b.levels.size(), count(RuleStanding::unsafe), count(RuleStanding::wasteful));
+  const auto open = count(RuleStanding::in_doubt);
+  return fmt::format("Against {} simulated levels the classical rule is unsafe in {} and wasteful in {}.{}",
+                     b.levels.size(), count(RuleStanding::unsafe), count(RuleStanding::wasteful),
+                     open > 0 ? fmt::format(" In {} the members are too few to tell whether it is fair.", open) : "");
 }
 
 }  // namespace
@@ -202,9 +204,11 @@ report::Document budget_report(const BudgetStudy& s) {
     document.facts.push_back(
         {.label = "Margin", .value = readable_share(answer->margin() / b.headline.limit), .note = "of the limit"});
   }
+  const std::string doubt = rule_doubt(s, headline);
   document.facts.push_back({.label = "Classical rule",
                             .value = budget_value(s, headline.by_rule),
-                            .note = standing_text(headline.standing, headline.by_rule, headline.level.value)});
+                            .note = standing_text(headline.standing, headline.by_rule, headline.level.value) +
+                                    (doubt.empty() ? "" : "; " + doubt)});
   document.facts.push_back({.label = "Members", .value = b.members, .note = fmt::format("{} failed", b.failed)});
 
   report::Section answers{.id = "answer", .title = "The budget", .intro = index_titles(s.plan), .items = {}};

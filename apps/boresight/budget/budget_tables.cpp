@@ -71,10 +71,21 @@ std::string interval_text(const BudgetStudy& s, const ReportedInterval& i) {
 }
 
 std::string standing_text(RuleStanding standing, double by_rule, double simulated) {
-  if (simulated <= 0.0) return "fair";
+  if (simulated <= 0.0) return to_string(standing);
   const double off = by_rule / simulated - 1.0;
   return off < kSaidAsMultiple ? fmt::format("{}, {:+.0f} %", to_string(standing), 100.0 * off)
                                : fmt::format("{}, {} above", to_string(standing), relative_text(off, 2, "it"));
+}
+
+std::string rule_doubt(const BudgetStudy& s, const BudgetLevel& l) {
+  if (l.standing != RuleStanding::in_doubt) return "";
+  const MemberInterval& ratio = l.rule_over_level;
+  const std::string range = std::isfinite(ratio.high)
+                                ? fmt::format("{:.2g} to {:.2g} times the level", ratio.low, ratio.high)
+                            : ratio.low > 0.0 ? fmt::format("{:.2g} times the level or any more", ratio.low)
+                                              : std::string("any multiple of the level");
+  return fmt::format("{} leave open whether the rule is fair: with others it may come to {}, with {} confidence",
+                     how_many(s.plan.members, "member"), range, percent(s.plan.confidence));
 }
 
 const char* source_of(const Budget& b, const ErrorReduction& r) {
@@ -123,14 +134,15 @@ report::Table level_table(const BudgetStudy& s, const Budget& b) {
   const DisplayUnit unit = budget_unit(s, largest);
   report::Table table{
       .title = "Levels in " + unit.name + ", simulated and by rule",
-      .caption =
-          fmt::format("Levels that hold with {}; from and to: their {} interval. By rule: one axis |mean| + n_P sd, "
-                      "the {} by the rule for equal axes without a mean; integrated: the Gaussian with the table's "
-                      "means and deviations. Unsafe: the rule is more than {:.0f} % below what was simulated; "
-                      "wasteful: more than {:.0f} % above; both only where other members would not make it fair. "
-                      "Sources: {}, of the rule {}.",
-                      percent(b.headline.probability), percent(s.plan.confidence), axes.total,
-                      100.0 * (1.0 - kUnsafeBelow), 100.0 * (kWastefulAbove - 1.0), kFromMembers, kFromClasses),
+      .caption = fmt::format(
+          "Levels that hold with {}; from and to: their {} interval. By rule: one axis |mean| + n_P sd, "
+          "the {} by the rule for equal axes without a mean; integrated: the Gaussian with the table's "
+          "means and deviations. Unsafe: the rule is more than {:.0f} % below what was simulated; "
+          "wasteful: more than {:.0f} % above; both only where other members would not make it fair. In doubt: "
+          "other members may make it anything but fair, and these are too few to tell. "
+          "Sources: {}, of the rule {}.",
+          percent(b.headline.probability), percent(s.plan.confidence), axes.total, 100.0 * (1.0 - kUnsafeBelow),
+          100.0 * (kWastefulAbove - 1.0), kFromMembers, kFromClasses),
       .columns = {{"Index, axis"},
                   {"Interpretation"},
                   {"Simulated"},

@@ -287,9 +287,11 @@ class BudgetVerb : public Verb {
     } else {
       const Budget& b = *s.budget;
       if (b.requirements.empty()) tell("  {}\n", budget_verdict(s));
-      for (const RequirementAnswer& r : b.requirements)
-        tell("  {}; by the classical rule {}, {}\n", requirement_sentence(s, r), budget_value(s, r.level.by_rule),
-             to_string(r.level.standing));
+      for (const RequirementAnswer& r : b.requirements) {
+        const std::string doubt = rule_doubt(s, r.level);
+        tell("  {}; by the classical rule {}, {}{}\n", requirement_sentence(s, r), budget_value(s, r.level.by_rule),
+             to_string(r.level.standing), doubt.empty() ? "" : ": " + doubt);
+      }
       std::size_t widest = 0;
       for (const ErrorReduction& r : b.reductions) widest = std::max(widest, r.name.size());
       for (const ErrorReduction& r : b.reductions)

@@ -153,9 +153,12 @@ TEST_F(BudgetOfErrors, HasTheSameRuleHoweverFewMembersAreAttributed) {
   for (std::size_t i = 0; i < few.levels.size(); ++i) {
     EXPECT_NEAR(few.levels[i].by_rule, all.levels[i].by_rule, 1e-3 * all.levels[i].by_rule) << i;
     EXPECT_EQ(few.levels[i].rule_interval.low, few.levels[i].by_rule) << i;
-    // n_P sd is what one axis of a Gaussian error has.
+    // n_P sd is what one axis of a Gaussian error has, as far as 60 members tell; of the worst of them there is no doubt.
     if (few.levels[i].axis == 2) continue;
-    EXPECT_EQ(few.levels[i].standing, RuleStanding::fair) << i;
+    const RuleStanding standing = few.levels[i].standing;
+    EXPECT_TRUE(standing == RuleStanding::fair ||
+                (standing == RuleStanding::in_doubt && few.levels[i].interpretation != Interpretation::temporal))
+        << i << " " << to_string(standing);
   }
   ASSERT_EQ(few.reductions.size(), 1u);
   EXPECT_EQ(few.reductions[0].members, 60u);

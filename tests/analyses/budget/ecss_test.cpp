@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "boresight_analyses/budget/classical.hpp"
@@ -63,11 +64,27 @@ TEST(HalfCone, WithOneDeviationAndNoMeanIsRayleighs) {
 
 TEST(ClassicalRule, IsCalledUnsafeOrWastefulOnlyBeyondWhatBothMayBeOffBy) {
   constexpr double kNothing = 1e-9;
-  EXPECT_EQ(standing_of({9.0, 9.2}, {10.0, 10.5}, kNothing), RuleStanding::unsafe);
-  EXPECT_EQ(standing_of({9.0, 9.9}, {10.0, 10.5}, kNothing), RuleStanding::fair);
-  EXPECT_EQ(standing_of({13.0, 14.0}, {10.0, 10.5}, kNothing), RuleStanding::wasteful);
-  EXPECT_EQ(standing_of({12.5, 14.0}, {10.0, 10.5}, kNothing), RuleStanding::fair);
-  EXPECT_EQ(standing_of({1e-19, 1e-19}, {3e-19, 3e-19}, kNothing), RuleStanding::fair);
+  EXPECT_EQ(standing_of({9.1, {9.0, 9.2}}, {10.2, {10.0, 10.5}}, kNothing), RuleStanding::unsafe);
+  EXPECT_EQ(standing_of({13.5, {13.0, 14.0}}, {10.2, {10.0, 10.5}}, kNothing), RuleStanding::wasteful);
+  EXPECT_EQ(standing_of({10.3, {10.1, 10.6}}, {10.2, {10.0, 10.5}}, kNothing), RuleStanding::fair);
+  EXPECT_EQ(standing_of({1e-19, {1e-19, 1e-19}}, {3e-19, {3e-19, 3e-19}}, kNothing), RuleStanding::fair);
+  EXPECT_EQ(standing_of({0.0, {0.0, 0.0}}, {0.0, {0.0, 0.0}}, 0.0), RuleStanding::fair);
+}
+
+TEST(ClassicalRule, IsInDoubtWhereOtherMembersMayTellOtherwise) {
+  constexpr double kNothing = 1e-9, kNoBound = std::numeric_limits<double>::infinity();
+  const auto standing = [](const LevelOfMembers& rule, const LevelOfMembers& seen) {
+    return standing_of(rule, seen, kNothing);
+  };
+  // Seen too low or too high, and not shown to be.
+  EXPECT_EQ(standing({9.5, {9.0, 9.9}}, {10.2, {10.0, 10.5}}), RuleStanding::in_doubt);
+  EXPECT_EQ(standing({13.0, {12.5, 14.0}}, {10.2, {10.0, 10.5}}), RuleStanding::in_doubt);
+  // Half of the level seen, with members too few for an interval.
+  EXPECT_EQ(standing({5.0, {}}, {10.0, {}}), RuleStanding::in_doubt);
+  // Seen to be fair, of a level that may be far higher, or is hardly known at all.
+  EXPECT_EQ(standing({10.0, {10.0, 10.0}}, {10.0, {9.0, kNoBound}}), RuleStanding::in_doubt);
+  EXPECT_EQ(standing({10.0, {6.0, 15.0}}, {10.0, {9.0, 11.0}}), RuleStanding::in_doubt);
+  EXPECT_EQ(standing({10.0, {}}, {10.0, {}}), RuleStanding::in_doubt);
 }
 
 // ECSS-E-ST-60-10C, A.2: the rule is for no mean. Offset 1, deviations (1, 1).
