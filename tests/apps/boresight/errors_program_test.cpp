@@ -15,8 +15,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-// A mirror on a shaft in two bearings, whose second seat is off. `play`: of that bearing.
-std::string shaft(const std::string& play, const std::string& off) {
+// A mirror on a shaft in two bearings, whose second seat is off. `play`: of that bearing, or of both.
+std::string shaft(const std::string& play, const std::string& off, bool both = false) {
   const std::string bearing = "type = \"revolute\"\nconnects = [\"ground\", \"mirror\"]\naxis = [0, 1, 0]\n";
   std::string text =
       "format = 1\nname = \"shaft\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\", \"-9.81 m/s^2\"]\n"
@@ -28,13 +28,15 @@ std::string shaft(const std::string& play, const std::string& off) {
       "= \"" +
       off + "\"\n[[joint]]\nname = \"right\"\npoint = [\"0 mm\", \"100 mm\", \"0 mm\"]\n" + bearing;
   text += "[motion]\nduration = \"50 ms\"\ndrives = { left = \"0.5*sin(6*t)\" }\n";
-  if (!play.empty())
+  for (const char* joint : {"right", "left"}) {
+    if (play.empty() || (joint == std::string("left") && !both)) continue;
     text +=
-        "[[clearance]]\njoint = \"right\"\njournal = \"mirror\"\nradial = \"" + play +
+        "[[clearance]]\njoint = \"" + std::string(joint) + "\"\njournal = \"mirror\"\nradial = \"" + play +
         "\"\naxial = \"0.1 mm\"\njournal_radius = \"10 mm\"\ncap_radius = \"16 mm\"\nsleeve_length = \"20 mm\"\naxes = "
         "\"parallel\"\n[clearance.contact]\nlaw = \"flores\"\nrestitution = 0.9\nyoung = [\"72 GPa\", \"72 "
         "GPa\"]\npoisson = [0.33, 0.33]\ndensity = \"2700 kg/m^3\"\nminimum_impact_speed = \"1 "
         "mm/s\"\n[clearance.friction]\nlaw = \"none\"\n";
+  }
   return text;
 }
 
@@ -46,6 +48,7 @@ class ErrorsProgram : public Program {
     put("strained.toml", shaft("", "0.05 mm"));
     put("roomy.toml", shaft("0.1 mm", "0.05 mm"));
     put("tight.toml", shaft("0.1 mm", "0.13 mm"));
+    put("jammed.toml", shaft("0.1 mm", "1 mm", true));
   }
   // Rows of a CSV of numbers, and where a column is.
   struct Columns {
@@ -136,6 +139,14 @@ TEST_F(ErrorsProgram, ASeatFurtherOffThanTheHeldPlayIsSaid) {
   EXPECT_THAT(call({"check", "roomy.toml", "--out", "b"}).out, Not(HasSubstr("more room")));
   EXPECT_THAT(call({"run", "tight.toml", "--out", "c"}).out, HasSubstr("warning: the standing errors ask for 30 µm"));
   EXPECT_THAT(call({"run", "roomy.toml", "--out", "d"}).out, Not(HasSubstr("more room")));
+}
+
+// Two plays of 0.1 mm whose seats are 1 mm apart: contacts would give way under tons.
+TEST_F(ErrorsProgram, SeatsFurtherApartThanTwoPlaysReachTogetherAreAProblem) {
+  const Ended ended = call({"check", "jammed.toml", "--out", "a"});
+  EXPECT_EQ(ended.status, 1) << ended.out << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("problem: the standing errors ask for 5 times the room"), HasSubstr("µm into"),
+                               HasSubstr(" kN"), Not(HasSubstr("nothing stands in the way"))));
 }
 
 // An arm of 1 m on an axis that is off by 0.7 rad about the arm's own direction across: its end is off by 2 sin(0.35) m, as an open
