@@ -5,7 +5,10 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "boresight/keys/numbers_together.hpp"
 #include "boresight_analyses/runs/model_samples.hpp"
+#include "boresight_analyses/runs/scatter_draws.hpp"
+#include "boresight_analyses/runs/scene_cost.hpp"
 #include "boresight_analyses/study/geometric_sample_model.hpp"
 
 namespace boresight {
@@ -41,9 +44,16 @@ double counted_cost(const SampleModel& model, const Mechanism& mechanism, const 
   // Where errors alone deviate: what a core of 2023 takes for eight samples side by side, and to draw and to store one.
   constexpr double kGeometricOperation = 6e-11, kGeometricSample = 3e-6;
   if (GeometricSampleModel::serve(model.rung(), mechanism)) return kGeometricSample + count * kGeometricOperation;
-  return std::max(kLeast, count * nominal_seconds_an_evaluation(model.rung(), model.batch() > 1,
-                                                                mechanism.description().bodies.size(),
-                                                                mechanism.description().clearances.size()));
+  const double motion =
+      std::max(kLeast, count * nominal_seconds_an_evaluation(model.rung(), model.batch() > 1,
+                                                             mechanism.description().bodies.size(),
+                                                             mechanism.description().clearances.size()));
+  if (!scene_varies(inputs)) return motion;
+  std::vector<Parameters> drawn;
+  for (const std::vector<double>& sample : values)
+    if (Parameters own = inputs.parameters_with(mechanism, sample); !impossible_numbers(mechanism.description(), own))
+      drawn.push_back(std::move(own));
+  return motion + counted_scene_cost(model.rung(), model.batch() > 1, mechanism, drawn);
 }
 
 double kept_counted_cost(const SampleModel& model, const Mechanism& mechanism, const RandomInputs& inputs,

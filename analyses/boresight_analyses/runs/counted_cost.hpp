@@ -7,6 +7,8 @@
 //   envelope 5 c      quasistatic c      perturbation 0.12 b + 0.32 c      multibody 0.3 b + 0.9 c
 //   perturbation on lanes 0.15 c a step tried
 //   errors alone, on all rungs but multibody: 3 a sample, and 0.06 a thousand operations
+//
+// Where masses, gravity or springs scatter each sample has a scene of its own to prepare besides: scene_cost.hpp.
 #pragma once
 
 #include "boresight/mechanism/mechanism.hpp"
@@ -21,7 +23,7 @@ namespace boresight {
 double nominal_seconds_an_evaluation(const std::string& rung, bool on_lanes, std::size_t bodies,
                                      std::size_t clearances);
 
-// Of a sample, from the median evaluations of the first eight of the design, which are computed for it [s].
+// Of a sample, from the median evaluations of the first eight of the design, which are computed for it, and what their scenes take [s].
 double counted_cost(const SampleModel& model, const Mechanism& mechanism, const RandomInputs& inputs,
                     const SamplingDesign& design);
 // The same, counted when the study is begun, and kept in its store.
