@@ -155,6 +155,8 @@ int run_fidelities(const SeveralRungs& s) {
                                     std::accumulate(o.measured_cost.begin(), o.measured_cost.end(), 0.0)}};
   f["budget"] = asked.budget;
   f["cpu_seconds"] = o.spent;
+  const std::string more = overspent(o.spent, asked.budget);
+  if (!more.empty()) f["cpu_seconds_beyond_budget"] = more;
   f["gain"] = {
       {"forecast", o.plan.gain}, {"low", o.plan.gain_low}, {"high", o.plan.gain_high}, {"measured", o.measured_gain()}};
   f["standard_error"] = o.mean.standard_error;
@@ -163,6 +165,8 @@ int run_fidelities(const SeveralRungs& s) {
   write_json(s.own.out(), "summary.json", json);
   s.own.out().write("rungs.csv", [&](std::ostream& out) { write_levels(out, s, o); });
 
+  // Not in the summary's warnings, which are the same however often a study was interrupted and however long it took: with its times there.
+  if (!more.empty()) warnings.push_back(more);
   report::Document document = several_rungs_report(s, top, o.leaves_out, warnings);
   document.subtitle = "The mean of the " + s.question.study.index.title() + ", on several rungs at once";
   const std::string sentence = fmt::format("Mean {} ± {}, unbiased for {}", readable(o.mean.value.value, unit),
@@ -202,8 +206,6 @@ int run_fidelities(const SeveralRungs& s) {
            asked.models[static_cast<std::size_t>(o.plan.models[k])], o.plan.samples[k],
            o.plan.correlation[static_cast<std::size_t>(o.plan.models[k])],
            readable(o.measured_cost[static_cast<std::size_t>(o.plan.models[k])], "s"));
-    // Not in the files, which are the same however often a study was interrupted.
-    if (const std::string more = overspent(o.spent, asked.budget); !more.empty()) warnings.push_back(more);
     tell_warnings(warnings, s.command, *s.question.mechanism);
     tell("  report: {}\n", (s.own.out().path() / "report.html").string());
   }

@@ -150,6 +150,8 @@ int run_tail(const SeveralRungs& s) {
                     {"exact_alone", pilot.exact_standard_error},
                     {"plain", pilot.plain_standard_error}}},
                   {"cpu_seconds", before + spent}};
+  const std::string more = overspent(spent, asked.budget);
+  if (!more.empty()) json["tail"]["cpu_seconds_beyond_budget"] = more;
   json["tail"]["exceedance"]["bounds"] = "one-sided, each at this confidence";
   json["tail"]["exceedance"]["central_limit"] = {{"low", central.low}, {"high", central.high}, {"why", central.basis}};
   json["tail"]["pilot_saw_excess"] = pilot.informed;
@@ -167,6 +169,8 @@ int run_tail(const SeveralRungs& s) {
   const std::string sentence =
       fmt::format("{:.3g} of all exceed {} ({:.3g} to {:.3g}), unbiased for {}", p.value,
                   readable_limit(requirement.limit, unit, requirement.unit), p.low, p.high, asked.exact);
+  // Not in the summary's warnings, which are the same however often a study was interrupted and however long it took: with its times there.
+  if (!more.empty()) warnings.push_back(more);
   report::Document document = several_rungs_report(s, asked.exact, found.leaves_out, warnings);
   document.subtitle = "How rarely the " + s.question.study.index.title() + " exceeds its limit";
   document.verdict =
@@ -203,8 +207,6 @@ int run_tail(const SeveralRungs& s) {
   for (const std::string& store : stores_of_tail(asked)) s.own.run().forget(store);
   if (!s.command.quiet) {
     tell("  {}\n", sentence);
-    // Not in the files, which are the same however often a study was interrupted.
-    if (const std::string more = overspent(spent, asked.budget); !more.empty()) warnings.push_back(more);
     tell_warnings(warnings, s.command, *s.question.mechanism);
     tell("  report: {}\n", (s.own.out().path() / "report.html").string());
   }

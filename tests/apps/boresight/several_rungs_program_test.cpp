@@ -75,6 +75,20 @@ TEST_F(SeveralRungsProgram, FidelitiesForecastTheirGainAndAgreeWithThePilot) {
   EXPECT_EQ(json("out/summary.json")["index"]["mean"], mean);  // the plan it was begun with, all samples found again
 }
 
+// With the times, which no comparison of two starts sees, and in the report as other warnings are.
+TEST_F(SeveralRungsProgram, SayInTheirFilesWhereMuchMoreThanTheBudgetWasSpent) {
+  study(
+      "[montecarlo]\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"0.5 s\", pilot = 10 }\n");
+  const Ended ended = ask("montecarlo");
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const auto fidelities = json("out/summary.json")["fidelities"];
+  const bool said = fidelities["cpu_seconds"].get<double>() > 2.5 * fidelities["budget"].get<double>();
+  EXPECT_EQ(fidelities.contains("cpu_seconds_beyond_budget"), said);
+  for (const std::string& shown : {ended.out, text("out/report.html")})
+    EXPECT_EQ(shown.find("times the budget") != std::string::npos, said);
+  EXPECT_EQ(json("out/summary.json")["warnings"].dump().find("times the budget"), std::string::npos);
+}
+
 TEST_F(SeveralRungsProgram, FidelitiesSayThatTheirBudgetDecidesHowManySamplesThereAre) {
   study(
       "[montecarlo]\nsamples = 400\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"2 s\", "
