@@ -19,7 +19,9 @@ f = boresight.Function(mechanism, ["clearance.D.radial", "clearance.D.contact.yo
 print(f)
 function = boresight.openturns(f)
 
-radial, young, gravity = f.nominal
+# The shaft is of steel and its housing of aluminium: the path of both sets one value, and f.nominal has none for it.
+numbers = mechanism.parameters()
+radial, young, gravity = numbers["clearance.D.radial"], 207e9, numbers["gravity.z"]
 scatter = ot.JointDistribution if hasattr(ot, "JointDistribution") else ot.ComposedDistribution
 distribution = scatter([ot.TruncatedNormal(radial, 0.1 * radial, 0.5 * radial, 1.5 * radial),
                         ot.Uniform(0.9 * young, 1.1 * young), ot.Normal(gravity, 0.01 * abs(gravity))])

@@ -13,7 +13,9 @@ namespace boresight {
 struct FunctionInput {
   std::vector<std::string> paths;
   std::string si_unit;
-  double nominal = 0.0;  // SI: what the file says, or the median of what the study scatters
+  // SI: what the file says, or the median of what the study scatters. Several where the path names numbers that differ: no one value is
+  // that of the file then.
+  std::vector<double> nominal;
   std::vector<ParameterPath> places;
 
   const std::string& name() const { return paths.front(); }

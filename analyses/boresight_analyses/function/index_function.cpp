@@ -46,7 +46,12 @@ IndexFunction::IndexFunction(std::shared_ptr<const Mechanism> mechanism, std::ve
 
 std::vector<double> IndexFunction::nominal() const {
   std::vector<double> point;
-  for (const FunctionInput& input : inputs_) point.push_back(input.nominal);
+  for (const FunctionInput& input : inputs_) {
+    if (input.nominal.size() > 1)
+      throw InputError({}, input.name(), differing_in_words(input.nominal, input.si_unit),
+                       "one value, for a nominal point: as an input, the path sets all of them alike");
+    point.push_back(input.nominal.front());
+  }
   return point;
 }
 

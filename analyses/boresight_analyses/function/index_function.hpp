@@ -34,7 +34,8 @@ class IndexFunction {
   const std::vector<FunctionInput>& inputs() const { return inputs_; }
   const FunctionModel& model() const { return model_; }
   const SampleModel& samples() const { return *samples_; }
-  std::vector<double> nominal() const;  // SI, in the order of the inputs
+  // SI, in the order of the inputs. Throws InputError where an input's path names numbers that differ: no point is that of the file.
+  std::vector<double> nominal() const;
 
   // Of one point [SI]. What goes wrong in its motion is an outcome; stop: it then is not reached. Throws InputError for a point
   // of another size, or a value or values together that the mechanism does not take.

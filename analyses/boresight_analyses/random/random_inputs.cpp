@@ -1,5 +1,6 @@
 #include "boresight_analyses/random/random_inputs.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -51,6 +52,15 @@ std::string unit_of(Cursor& distribution) {
   return "";
 }
 
+// The one value that these have in the mechanism [SI]; where they differ, all.
+std::vector<double> values_here(const std::vector<ParameterPath>& places, const Parameters& parameters) {
+  std::vector<double> all;
+  for (const ParameterPath& place : places)
+    for (const double value : place.values(parameters)) all.push_back(value);
+  if (std::equal(all.begin() + 1, all.end(), all.begin())) all.resize(1);
+  return all;
+}
+
 RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechanism,
                                const std::function<void(const Setting&)>& accepts) {
   RandomParameter random;
@@ -71,9 +81,12 @@ RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechan
   }
   if (!radial) journals.clear();
   Cursor distribution = entry.table("distribution");
-  const double nominal = random.places.front().get(nominal_parameters(mechanism));
-  random.distribution =
-      read_distribution(distribution, unit_of_parameters(mechanism, random.paths, random.si_unit), journals, nominal);
+  const std::vector<double> here = values_here(random.places, nominal_parameters(mechanism));
+  if (here.size() > 1 && distribution.has("planes"))
+    entry.fail_found("parameter", differing_in_words(here, random.si_unit),
+                     "parameters that have one value in the mechanism: the planes lie about it");
+  random.distribution = read_distribution(distribution, unit_of_parameters(mechanism, random.paths, random.si_unit),
+                                          journals, here.front());
   random.unit = unit_of(distribution);
   check_ends(entry, random, accepts);
   return random;
@@ -92,7 +105,11 @@ void read_drawn_together(Cursor& entry, const MechanismDescription& mechanism,
     pair[k].paths = {paths[k]};
     pair[k].places.emplace_back(mechanism, paths[k], entry.origin(key));
     pair[k].si_unit = pair[k].places[0].unit();
-    centre[k] = pair[k].places[0].get(nominal);
+    const std::vector<double> here = values_here(pair[k].places, nominal);
+    if (here.size() > 1)
+      entry.fail_found(key, "\"" + paths[k] + "\" with " + differing_in_words(here, pair[k].si_unit),
+                       "parameters that have one value in the mechanism: the cylinder lies about it");
+    centre[k] = here.front();
   }
   if (pair[1].si_unit != pair[0].si_unit)
     entry.fail_found(key, "\"" + paths[1] + "\" in " + pair[1].si_unit,

@@ -26,10 +26,10 @@ namespace {
 
 // A number of the mechanism: --set, [[random]] and their like take it.
 struct NumberPath {
-  std::string path, unit;  // unit: what it is computed in
-  bool is_scale = false;   // of a drive: a share, whatever it is computed in
-  double value = 0.0;      // SI
-  std::string written;     // "0.1 mm"; "" where nobody gave it
+  std::string path, unit;      // unit: what it is computed in
+  bool is_scale = false;       // of a drive: a share, whatever it is computed in
+  std::vector<double> values;  // SI: one, or each where those that the path names differ
+  std::string written;         // "0.1 mm"; "" where nobody gave it
 };
 
 struct Paths {
@@ -49,7 +49,8 @@ bool says(const std::string& written, const NumberPath& n) {
   try {
     const double value =
         n.unit == "1" ? std::strtod(written.c_str(), nullptr) : parse_quantity(written, unit_called(n.unit, true));
-    return std::abs(value - n.value) <= 1e-12 * std::abs(n.value);
+    return std::all_of(n.values.begin(), n.values.end(),
+                       [&](double x) { return std::abs(value - x) <= 1e-12 * std::abs(x); });
   } catch (const ValueFault&) {
     return false;
   }
@@ -65,7 +66,7 @@ Paths paths_of(const std::string& file, const std::vector<Setting>& settings) {
     if (settable.erase(path) == 0) continue;  // of another law
     const ParameterPath place(mechanism, path);
     NumberPath& number = paths.numbers.emplace_back(
-        NumberPath{path, place.unit(), names_scales(mechanism, path), place.get(parameters), ""});
+        NumberPath{path, place.unit(), names_scales(mechanism, path), place.values(parameters), ""});
     if (const auto found = written.find(path); found != written.end() && says(found->second, number))
       number.written = found->second;
   }
@@ -77,7 +78,8 @@ Paths paths_of(const std::string& file, const std::vector<Setting>& settings) {
 Json json_of(const Paths& paths) {
   Json numbers = Json::array();
   for (const NumberPath& n : paths.numbers) {
-    numbers.push_back({{"path", n.path}, {"value", n.value}, {"unit", n.is_scale ? "1" : n.unit}});
+    const Json value = n.values.size() == 1 ? Json(n.values.front()) : Json(n.values);
+    numbers.push_back({{"path", n.path}, {"value", value}, {"unit", n.is_scale ? "1" : n.unit}});
     if (!n.written.empty()) numbers.back()["written"] = n.written;
   }
   return {{"numbers", numbers}, {"others", paths.others}};
@@ -91,8 +93,9 @@ void print(const Paths& paths) {
       "clearance.*.radial):\n");
   for (const NumberPath& n : paths.numbers)
     tell("  {:{}}  {}\n", n.path, widest,
-         !n.written.empty() ? n.written
-                            : fmt::format("{:.6g}{}", n.value, n.is_scale || n.unit == "1" ? "" : " " + n.unit));
+         !n.written.empty()
+             ? n.written
+             : fmt::format("{:.6g}{}", fmt::join(n.values, " and "), n.is_scale || n.unit == "1" ? "" : " " + n.unit));
 }
 
 void print_others(const Paths& paths) {

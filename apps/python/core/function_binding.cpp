@@ -217,7 +217,10 @@ void bind_function(py::module_& module) {
             const auto n = static_cast<py::ssize_t>(point.size());
             return owned(std::move(point), {n});
           },
-          "The point of the file, or the medians of the study, (d,).")
+          "The point of the file, or the medians of the study, (d,). Raises InputError where an input sets numbers "
+          "alike "
+          "that differ in\n"
+          "the file: no point is that of the file then.")
       .def_property_readonly("index", [](const Function& f) { return f.of->model().index.text(); })
       .def_property_readonly(
           "unit", [](const Function& f) { return f.of->model().index.si_unit(); }, "Of the index.")

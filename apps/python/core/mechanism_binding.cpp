@@ -38,6 +38,52 @@ std::vector<std::string> names_of(const List& list) {
   return names;
 }
 
+// A path and a value of settings as --set takes them. Numbers of numpy are written as those of Python are.
+Setting setting_of(const py::handle& path, const py::handle& value) {
+  if (!py::isinstance<py::str>(path))
+    throw InputError({}, "settings", py::repr(path).cast<std::string>(),
+                     "a path as a text, such as \"motion.duration\"");
+  const std::string name = path.cast<std::string>();
+  if (value.is_none()) throw InputError({}, name, "None", "a number, a text with its unit, or what else --set takes");
+  if (py::isinstance<py::bool_>(value)) return {name, value.cast<bool>() ? "true" : "false"};
+  if (py::isinstance<py::str>(value)) return {name, value.cast<std::string>()};
+  if (PyFloat_Check(value.ptr())) return {name, py::repr(py::float_(value.cast<double>())).cast<std::string>()};
+  return {name, py::repr(value).cast<std::string>()};
+}
+
+double number_of(const py::handle& value, const std::string& si_unit) {
+  try {
+    return value.cast<double>();
+  } catch (const py::cast_error&) {
+    throw ValueFault(py::repr(value).cast<std::string>(),
+                     si_unit == "1" ? "a number" : "a number of " + si_unit + ", or a text with its unit");
+  }
+}
+
+// A float; of a path whose numbers differ a tuple of each, which may be set again.
+py::object value_at(const NamedParameters& p, const std::string& path) {
+  const std::vector<double> values = ParameterPath(p.mechanism->description(), path).values(p.values);
+  if (values.size() == 1) return py::float_(values.front());
+  return py::tuple(py::cast(values));
+}
+
+bool is_list(const py::object& value) {
+  return py::isinstance<py::tuple>(value) || py::isinstance<py::list>(value) ||
+         (py::isinstance<py::array>(value) && value.cast<py::array>().ndim() > 0);
+}
+
+void set_value(NamedParameters& p, const std::string& path, const py::object& value) {
+  const ParameterPath place(p.mechanism->description(), path);
+  std::vector<double> values;
+  if (!is_list(value))
+    values.push_back(value_for(*p.mechanism, path, value));
+  else
+    for (const py::handle& one : value) values.push_back(value_for(*p.mechanism, path, one));
+  if (!place.set(p.values, values))
+    throw InputError({}, path, std::to_string(values.size()) + " values",
+                     place.count() == 1 ? "one" : "one, or " + std::to_string(place.count()));
+}
+
 std::vector<std::string> clearance_names(const Mechanism& m) {
   std::vector<std::string> names;
   for (const auto& clearance : m.description().clearances)
@@ -49,14 +95,7 @@ std::vector<std::string> clearance_names(const Mechanism& m) {
 
 std::vector<Setting> settings_of(const py::dict& settings) {
   std::vector<Setting> set;
-  for (const auto& [path, value] : settings) {
-    std::string text;
-    if (py::isinstance<py::bool_>(value))
-      text = value.cast<bool>() ? "true" : "false";
-    else
-      text = py::isinstance<py::str>(value) ? value.cast<std::string>() : py::repr(value).cast<std::string>();
-    set.push_back({path.cast<std::string>(), text});
-  }
+  for (const auto& [path, value] : settings) set.push_back(setting_of(path, value));
   return set;
 }
 
@@ -65,7 +104,7 @@ double value_for(const Mechanism& mechanism, const std::string& path, const py::
   try {
     double number = 0.0;
     if (!py::isinstance<py::str>(value))
-      number = value.cast<double>();
+      number = number_of(value, input.si_unit);
     else if (const auto text = value.cast<std::string>(); input.si_unit != "1")
       number = parse_quantity(text, unit_of_parameters(mechanism.description(), {path}, input.si_unit));
     else if (!parse_number(text, number))
@@ -128,26 +167,19 @@ void bind_mechanism(py::module_& module) {
       "Numbers of a mechanism by their paths, in SI. Setting takes a number of SI, or a text with its unit:\n\n"
       "    p = m.parameters()\n"
       "    p[\"clearance.F1.radial\"] = 1e-4      # or \"0.1 mm\"\n"
-      "    p[\"clearance.*.radial\"] = \"0.1 mm\"   # of all joints\n")
-      .def(
-          "__getitem__",
-          [](const NamedParameters& p, const std::string& path) {
-            return ParameterPath(p.mechanism->description(), path).get(p.values);
-          },
-          py::arg("path"))
-      .def(
-          "__setitem__",
-          [](NamedParameters& p, const std::string& path, const py::object& value) {
-            ParameterPath(p.mechanism->description(), path).set(p.values, value_for(*p.mechanism, path, value));
-          },
-          py::arg("path"), py::arg("value"))
+      "    p[\"clearance.*.radial\"] = \"0.1 mm\"   # of all joints\n\n"
+      "A path of several numbers that differ, such as the moduli of two materials, has a tuple of them, and takes one "
+      "value\n"
+      "for all or as many as there are.\n")
+      .def("__getitem__", &value_at, py::arg("path"))
+      .def("__setitem__", &set_value, py::arg("path"), py::arg("value"))
       .def("copy", [](const NamedParameters& p) { return p; })
       .def(
           "as_dict",
           [](const NamedParameters& p) {
             py::dict all;
             for (const std::string& path : parameter_paths(p.mechanism->description()))
-              all[py::str(path)] = ParameterPath(p.mechanism->description(), path).get(p.values);
+              all[py::str(path)] = value_at(p, path);
             return all;
           },
           "All of them: {path: value in SI}.")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <sstream>
 
@@ -193,8 +194,22 @@ double ParameterPath::get(const Parameters& parameters) const {
   return *numbers_.front()(copy);
 }
 
+std::vector<double> ParameterPath::values(const Parameters& parameters) const {
+  Parameters copy = parameters;
+  std::vector<double> each;
+  for (const auto& number : numbers_) each.push_back(*number(copy));
+  if (std::equal(each.begin() + 1, each.end(), each.begin())) each.resize(1);
+  return each;
+}
+
 void ParameterPath::set(Parameters& parameters, double value) const {
   for (const auto& number : numbers_) *number(parameters) = value;
+}
+
+bool ParameterPath::set(Parameters& parameters, std::span<const double> values) const {
+  if (values.size() != 1 && values.size() != numbers_.size()) return false;
+  for (std::size_t k = 0; k < numbers_.size(); ++k) *numbers_[k](parameters) = values[values.size() == 1 ? 0 : k];
+  return true;
 }
 
 std::vector<std::string> parameter_paths(const MechanismDescription& mechanism) {
@@ -221,6 +236,14 @@ bool names_scales(const MechanismDescription& mechanism, const std::string& path
     any = true;
   }
   return any;
+}
+
+std::string differing_in_words(const std::vector<double>& values, const std::string& unit) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  char text[100];
+  std::snprintf(text, sizeof text, "values from %.6g to %.6g%s%s", *low, *high, unit == "1" ? "" : " ",
+                unit == "1" ? "" : unit.c_str());
+  return text;
 }
 
 Parameters nominal_parameters(const MechanismDescription& mechanism) {

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,12 @@ class ParameterPath {
   // The SI unit its values are read with: "m", "kg", "m/s^2", "1" (a pure number), ...
   const std::string& unit() const { return unit_; }
   double get(const Parameters& parameters) const;  // the first number it names
-  void set(Parameters& parameters, double value) const;
+  // The one value of all numbers it names; where these differ, each of them in order.
+  std::vector<double> values(const Parameters& parameters) const;
+  void set(Parameters& parameters, double value) const;  // all of them
+  // All of one value, or each of its own, in the order of values(). False, and nothing is set, of another count.
+  bool set(Parameters& parameters, std::span<const double> values) const;
+  std::size_t count() const { return numbers_.size(); }
 
  private:
   std::string path_, unit_;
@@ -46,6 +52,9 @@ std::vector<std::string> single_paths(const MechanismDescription& mechanism, con
 
 // Whether all that the path names are scales of drives, whose values are shares: is_scale().
 bool names_scales(const MechanismDescription& mechanism, const std::string& path);
+
+// "values from 7.2e+10 to 2.07e+11 Pa": how messages say that numbers of one path differ.
+std::string differing_in_words(const std::vector<double>& values, const std::string& unit);
 
 // The parameters as the file gives them.
 Parameters nominal_parameters(const MechanismDescription& mechanism);

@@ -48,8 +48,27 @@ TEST(FunctionInputs, HaveTheUnitAndTheValueOfTheirPath) {
   ASSERT_EQ(inputs.size(), 2u);
   EXPECT_EQ(inputs[0].name(), kRadial);
   EXPECT_EQ(inputs[0].si_unit, "m");
-  EXPECT_EQ(inputs[0].nominal, mechanism_of_function()->parameters().clearance[0].radial);
+  EXPECT_EQ(inputs[0].nominal, std::vector{mechanism_of_function()->parameters().clearance[0].radial});
   EXPECT_EQ(inputs[1].si_unit, "kg");
+}
+
+// A shaft of steel in a housing of aluminium: one path, two materials.
+TEST(FunctionInputs, HaveNoSingleValueWhereTheirPathNamesNumbersThatDiffer) {
+  const std::string path = "clearance.D.contact.young";
+  const auto four_bar = std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml", {{"motion.duration", "20 ms"}}));
+  const auto inputs = inputs_named(*four_bar, {path});
+  EXPECT_EQ(inputs[0].nominal, (std::vector{207e9, 72e9}));
+  const IndexFunction f(four_bar, inputs, {.index = {"position_error", "max"}, .rung = "quasistatic"});
+  EXPECT_EQ(f.at(std::vector{207e9}).status, Outcome::Status::done);
+  try {
+    f.nominal();
+    FAIL() << "a nominal point";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(path + ": found values from 7.2e+10 to 2.07e+11 Pa, expected one value"));
+  }
+  const auto like = inputs_named(*mechanism_of_function(), {"clearance.F1.contact.young"});
+  EXPECT_EQ(like[0].nominal, std::vector{72e9});
 }
 
 TEST(FunctionInputs, AreRefusedASecondTimeAndWhereTheyNameNothing) {

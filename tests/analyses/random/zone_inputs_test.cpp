@@ -126,6 +126,13 @@ TEST_F(ZoneInputs, LieAroundTheMechanismFilesValues) {
   EXPECT_NEAR(planes.parameters[0].distribution->highest(), -9.71, 1e-14);
 }
 
+TEST_F(ZoneInputs, HaveNoMiddleWhereTheirParametersDiffer) {
+  EXPECT_THAT(fault(zone("{ planes = { width = \"0.2 m/s^2\" } }", "parameter", "[\"gravity.y\", \"gravity.z\"]")),
+              HasSubstr("parameter: found values from -9.81 to 0 m/s^2, expected parameters that have one value"));
+  EXPECT_EQ(fault(zone("{ planes = { width = \"0.2 m/s^2\" } }", "parameter", "[\"gravity.x\", \"gravity.y\"]")),
+            "no fault");
+}
+
 // An axis of length L in a cylinder of diameter d has its ends at most d apart across it: it leans by at most d / L.
 TEST_F(ZoneInputs, AnAxisLeansInItsZoneByTheWidthOverTheLength) {
   EXPECT_DOUBLE_EQ(reach("{ diameter = \"0.02 mm\", length = \"30 mm\" }", kAngle), 0.02 / 30.0);

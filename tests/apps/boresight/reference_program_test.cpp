@@ -99,6 +99,19 @@ TEST_F(ReferenceProgram, PathsShowWhatWasTyped) {
   EXPECT_THAT(out, ContainsRegex("body.rod3.mass +1.5 kg\n"));
 }
 
+TEST_F(ReferenceProgram, PathsShowEachNumberWhereThoseOfOnePathDiffer) {
+  const std::string four_bar = std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml";
+  EXPECT_THAT(call({"paths", four_bar}).out, ContainsRegex("contact.young +2.07e\\+11 and 7.2e\\+10 Pa\n"));
+  const nlohmann::json paths = nlohmann::json::parse(call({"paths", four_bar, "--json"}).out);
+  bool found = false;
+  for (const nlohmann::json& number : paths["numbers"])
+    if (number["path"] == "clearance.D.contact.young") {
+      found = true;
+      EXPECT_EQ(number["value"], nlohmann::json({207e9, 72e9}));
+    }
+  EXPECT_TRUE(found);
+}
+
 TEST_F(ReferenceProgram, TheManualPageHasEveryVerbAndTopic) {
   const Ended ended = call({"help", "--man"});
   EXPECT_EQ(ended.status, 0) << ended.err;

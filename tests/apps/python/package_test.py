@@ -75,6 +75,39 @@ class Python(unittest.TestCase):
                 p["clearance.F1.radial"] = value
             self.assertEqual(caught.exception.key, "clearance.F1.radial")
 
+    def test_a_path_of_numbers_that_differ_gives_and_takes_each(self):
+        m = bs.Mechanism(FOUR_BAR, SHORT)
+        path = "clearance.D.contact.young"
+        p, file = m.parameters(), m.parameters().as_dict()
+        self.assertEqual(p[path], (207e9, 72e9))
+        p[path] = p[path]
+        self.assertEqual(p.as_dict(), file)
+        for every, value in p.as_dict().items():
+            p[every] = value
+        self.assertEqual(p.as_dict(), file)
+        p[path] = ["72 GPa", 207e9]
+        self.assertEqual(p[path], (72e9, 207e9))
+        p[path] = numpy.array([1e11, 2e11])
+        self.assertEqual(p[path], (1e11, 2e11))
+        p[path] = numpy.float64(72e9)
+        self.assertEqual(p[path], 72e9)
+        for wrong in ((1e11, 2e11, 3e11), (), (1e11, -1.0)):
+            with self.assertRaises(bs.InputError):
+                p[path] = wrong
+        self.assertEqual(p[path], 72e9)
+        with self.assertRaisesRegex(bs.InputError, "values from 7.2e\\+10 to 2.07e\\+11 Pa"):
+            bs.Function(m, [path], rung="quasistatic").nominal
+
+    def test_what_is_no_number_is_refused_in_words(self):
+        m = bs.Mechanism(MECHANISM, SHORT)
+        p = m.parameters()
+        for wrong, found in ((None, "None"), ({}, "{}"), (1j, "1j"), ([None], "None")):
+            with self.assertRaisesRegex(bs.InputError, "clearance.F1.radial: found " + found + ", expected a number of m"):
+                p["clearance.F1.radial"] = wrong
+        for settings in ({"clearance.F1.radial": None}, {1: "2 mm"}):
+            with self.assertRaises(bs.InputError):
+                bs.Mechanism(MECHANISM, settings)
+
     def test_numbers_that_do_not_fit_together_are_refused_where_they_are_computed_with(self):
         m = bs.Mechanism(MECHANISM, SHORT)
         p = m.parameters()
