@@ -45,12 +45,12 @@ class Result:
     def __init__(self, verb: str, status: int, folder: str, own: Optional[str] = None) -> None:
         self.verb: str = verb  #: "montecarlo"
         self.status: int = status  #: exit status of the command: 0, or 1 where the answer is no
-        self.folder: str = folder
+        self.folder: str = folder  #: "" of a verb that only prints
         if own is not None:
             weakref.finalize(self, shutil.rmtree, own, ignore_errors=True)
         self.summary: Dict[str, Any] = {}  #: summary.json; apps/boresight/summary.md says what is in it. Empty where a verb writes none
         path = os.path.join(folder, "summary.json")
-        if os.path.exists(path):
+        if folder and os.path.exists(path):
             with open(path, encoding="utf-8") as file:
                 self.summary = json.load(file)
 
@@ -66,7 +66,7 @@ class Result:
     @property
     def files(self) -> List[str]:
         """The names of all files in the folder."""
-        return sorted(os.listdir(self.folder))
+        return sorted(os.listdir(self.folder)) if self.folder else []
 
     def table(self, name: str) -> numpy.ndarray:
         """A table of the folder ("timeseries.csv") as a structured array, one field a column, text as str."""
@@ -92,6 +92,8 @@ class Result:
             return json.load(file)
 
     def _repr_html_(self) -> str:
+        if "report.json" not in self.files:
+            return f"<p>{html.escape(repr(self))}</p>"
         document = self._document()
         rows = "".join(
             f"<tr><th style='text-align:left'>{html.escape(str(fact['label']))}</th>"

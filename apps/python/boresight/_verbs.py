@@ -31,7 +31,7 @@ def verb(
 
     settings: values of the mechanism that replace those of its file, by their paths: {"clearance.F1.radial": "0.2 mm"}.
     out: the folder of the results, with which the same call goes on where it was stopped; otherwise one that goes with
-        the Result.
+        the Result. A verb that has no such option writes where it writes, or prints (paths, schema, help).
     options: those of the command, with _ for -: rung="perturbation", accuracy="1 %", jobs=4, step_error="off". True is
         an option without a value; a list gives an option several times.
     progress(done, total, unit, estimate): called ten times a second; what it raises ends the study, and so does Ctrl-C:
@@ -40,9 +40,16 @@ def verb(
     Raises InputError, ComputationError, ResultsError. That the answer is no (a requirement not met) is no error:
     Result.answer is False.
     """
-    own = tempfile.mkdtemp(prefix="boresight-") if out is None else None
-    folder = os.path.join(own, name) if own is not None else os.fspath(out)  # type: ignore[arg-type]
-    words = [name] + ([os.fspath(file)] if file is not None else []) + ["--out", folder, "--quiet"]
+    known = _core.options_of_verb(name)
+    own = tempfile.mkdtemp(prefix="boresight-") if out is None and "--out" in known else None
+    words = [name] + ([os.fspath(file)] if file is not None else [])
+    if own is not None or out is not None:
+        folder = os.path.join(own, name) if own is not None else os.fspath(out)  # type: ignore[arg-type]
+        words += ["--out", folder]
+    else:  # what such a verb writes, it writes into what it is called on: new, report
+        folder = ""
+    if "--quiet" in known:
+        words.append("--quiet")
     for path, value in (settings or {}).items():
         words += ["--set", f"{path}={_text(value)}"]
     for option, value in options.items():
@@ -58,6 +65,8 @@ def verb(
         if own is not None:
             shutil.rmtree(own, ignore_errors=True)
         raise
+    if not folder and file is not None and os.path.isdir(file):
+        folder = os.fspath(file)
     return Result(name, found["status"], found["folder"] or folder, own)
 
 

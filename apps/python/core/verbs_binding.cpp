@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "boresight/mechanism/error.hpp"
 #include "command_line/montecarlo_study.hpp"
@@ -71,11 +72,25 @@ py::dict call(const std::vector<std::string>& words, const py::object& progress)
   return result;
 }
 
+// "--out", "--quiet", ...; of what is no verb none.
+std::vector<std::string> options_of(const std::string& verb) {
+  const ProgramOptions program;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < program.verbs.size(); ++i) {
+    if (program.verbs[i]->name() != verb) continue;
+    for (const CLI::Option* option : std::as_const(*program.commands[i]).get_options())
+      if (option->nonpositional()) names.push_back(option->get_name());
+  }
+  return names;
+}
+
 }  // namespace
 
 void bind_verbs(py::module_& module) {
   module.def("call_verb", &call, py::arg("words"), py::arg("progress") = py::none(),
              "Calls a verb with the words of a command line; {\"status\": 0 or 1, \"folder\": of its results}.");
+  module.def("options_of_verb", &options_of, py::arg("verb"),
+             "The options that a verb has: \"--out\", ...; of what is no verb none.");
 }
 
 }  // namespace boresight::python

@@ -82,6 +82,29 @@ class Python(unittest.TestCase):
             self.assertEqual(os.path.realpath(exported.folder), os.path.realpath(to))
             self.assertEqual(exported.summary, {})
 
+    def test_each_verb_is_called_with_the_options_that_it_has(self):
+        def printed(*arguments):
+            code = "import sys, boresight; boresight.verb(*sys.argv[1:])"
+            done = subprocess.run([sys.executable, "-c", code, *arguments], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stdout
+
+        self.assertIn("clearance.F1.radial", printed("paths", MECHANISM))
+        self.assertIn('"$schema"', printed("schema", "study"))
+        self.assertIn("restitution", printed("help", "restitution"))
+        with tempfile.TemporaryDirectory() as folder:
+            new = bs.verb("new", os.path.join(folder, "antenna"))
+            self.assertIn("mechanism.toml", new.files)
+            run = bs.check(MECHANISM, out=os.path.join(folder, "check"))
+            again = bs.verb("report", run.folder)
+            self.assertEqual((again.folder, again.summary), (run.folder, run.summary))
+        self.assertEqual((bs.Result("paths", 0, "").files, bs.Result("paths", 0, "").summary), ([], {}))
+        self.assertIn("paths", bs.Result("paths", 0, "")._repr_html_())
+        with self.assertRaisesRegex(bs.InputError, "--out"):
+            bs.verb("paths", MECHANISM, out="nowhere")
+        with self.assertRaises(bs.InputError):
+            bs.verb("path", MECHANISM)
+
     def test_a_start_beyond_the_motion_is_refused(self):
         m = bs.Mechanism(os.path.join(EXAMPLES, "four-bar", "four-bar.toml"))
         with self.assertRaises(bs.InputError):
