@@ -50,6 +50,13 @@ struct Columns {
   CsvNumbers numbers{""};
 };
 
+[[noreturn]] void refuse_twice(const std::string& name, std::size_t first, std::size_t second, const Origin& at) {
+  throw InputError(at, "header",
+                   "the column " + in_quotes(name) + " twice, as column " + std::to_string(first + 1) + " and column " +
+                       std::to_string(second + 1),
+                   "each column once");
+}
+
 // A table of this project's own: every column is t or a channel, with its unit in brackets.
 void take_named_columns(const std::vector<Heading>& headings, const Origin& at, bool timed, Columns& columns,
                         MeasuredData& data) {
@@ -59,8 +66,8 @@ void take_named_columns(const std::vector<Heading>& headings, const Origin& at, 
     const Heading& h = headings[here];
     if (h.unit.empty() || h.text.back() != ']')
       throw InputError(at, "header", in_quotes(h.text), "a column's name and its unit, such as \"dx [um]\"");
-    if (std::count(columns.name.begin(), columns.name.end(), h.name) > 1)
-      throw InputError(at, h.name, "the column twice", "each column once");
+    for (std::size_t before = 0; before < here; ++before)
+      if (headings[before].name == h.name) refuse_twice(h.name, before, here, at);
     if (h.name == "t") {
       columns.time = static_cast<int>(here);
       columns.time_scale = scale_of(h.name, h.unit, kDuration, at);
@@ -87,7 +94,7 @@ std::size_t column_called(const std::string& name, const std::vector<Heading>& h
   for (std::size_t k = 0; k < headings.size(); ++k) {
     known.push_back(headings[k].name);
     if (headings[k].text != name && headings[k].name != name) continue;
-    if (found) throw InputError(at, "header", "the column " + in_quotes(name) + " twice", "each column once");
+    if (found) refuse_twice(name, *found, k, at);
     found = k;
   }
   if (!found) {

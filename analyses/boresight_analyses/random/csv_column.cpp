@@ -39,6 +39,13 @@ std::vector<double> read_csv_column(const std::string& file, const std::string& 
   if (place == names.end())
     throw ColumnFault{false, in_quotes(column), "a column of " + in_quotes(file), column_meant(column, names)};
   const auto index = static_cast<std::size_t>(place - names.begin());
+  // Nobody knows which of them is meant.
+  if (const auto again = std::find(place + 1, names.end(), column); again != names.end())
+    throw ColumnFault{false,
+                      in_quotes(column) + " as column " + std::to_string(index + 1) + " and column " +
+                          std::to_string(again - names.begin() + 1) + " in line " + std::to_string(lines.number()) +
+                          " of " + in_quotes(file),
+                      "each column once", ""};
   std::vector<double> values;
   while (lines.next(line)) {
     if (trimmed(line).empty()) continue;

@@ -12,7 +12,7 @@ struct ColumnFault {
   std::string found, expected, nearest;
 };
 
-// Throws ColumnFault: no such file or column, no values, a field that is no finite number (with its line).
+// Throws ColumnFault: no such file or column, a column twice, no values, a field that is no finite number (with its line).
 std::vector<double> read_csv_column(const std::string& file, const std::string& column);
 
 // `name` as seen from the folder of `file`.

@@ -71,6 +71,12 @@ TEST_F(MeasuredDataTest, WithoutAUnitOrTwiceTheSameColumnAreRefused) {
   EXPECT_THROW(read("t [s], dx [um], dx [mm]\n0, 1, 2\n"), InputError);
 }
 
+TEST_F(MeasuredDataTest, SayWhereAColumnStandsTwice) {
+  EXPECT_NE(refusal("t [s], dx [um], dy [um], dx [mm]\n0, 1, 2, 3\n")
+                .find(":1: header: found the column \"dx\" twice, as column 2 and column 4, expected each column once"),
+            std::string::npos);
+}
+
 TEST_F(MeasuredDataTest, MayBeginWithTheMarkThatSpreadsheetsSet) {
   const MeasuredData data = read("\xEF\xBB\xBFt [s], dx [um]\n0, 3.5\n");
   EXPECT_EQ(data.time, (std::vector<double>{0.0}));

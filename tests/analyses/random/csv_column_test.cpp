@@ -64,6 +64,12 @@ TEST(CsvColumn, IsRefusedWhereARowHasMoreFieldsThanTheHeader) {
   EXPECT_EQ(read_csv_column(file_of("a,b\n1,0.5,\n2,1e-3, ,\n"), "b"), (std::vector<double>{0.5, 1e-3}));
 }
 
+TEST(CsvColumn, IsRefusedWhereTheFileNamesItTwice) {
+  EXPECT_NE(refusal("b,a,b\n1,2,3\n").find("\"b\" as column 1 and column 3 in line 1 of \""), std::string::npos);
+  EXPECT_NE(refusal("b,a,b\n1,2,3\n").find("expected each column once"), std::string::npos);
+  EXPECT_EQ(read_csv_column(file_of("a,b,a\n1,0.5,3\n"), "b"), std::vector<double>{0.5});  // what nobody asks for
+}
+
 // Its unit is for people: values are taken as the study says, so a name without it is none of the file's.
 TEST(CsvColumn, IsSuggestedWithItsUnit) {
   try {
