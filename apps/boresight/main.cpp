@@ -108,7 +108,7 @@ int run_program(int argc, char** argv) {
     return fail(kBadInput, std::string(error.what()) + "; boresight " +
                                (argv[1][0] == '-' ? "" : argv[1] + std::string(" ")) + "--help tells more");
   }
-  for (const CLI::App* parsed : app.get_subcommands()) refuse_empty_values(*parsed);
+  for (const CLI::App* parsed : app.get_subcommands()) refuse_values_that_are_none(*parsed);
   if (completion->parsed()) {
     const auto& shells = completion_shells();
     if (std::find(shells.begin(), shells.end(), shell) == shells.end())

@@ -4,6 +4,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "command_line/option_range.hpp"
 #include "command_line/program_help.hpp"
+#include "exchange/utf8.hpp"
 
 namespace boresight::app {
 namespace {
@@ -45,12 +46,21 @@ ProgramOptions::ProgramOptions()
   completion->footer("Example:\n  source <(boresight completion bash)");
 }
 
-void refuse_empty_values(const CLI::App& command) {
+void refuse_values_that_are_none(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     for (const std::string& value : option->results())
       if (value.empty())
         throw InputError(kCommandLine, option->get_name(), in_quotes(value),
                          option->nonpositional() ? "a value, or no " + option->get_name() : option->get_description());
+  for (const CLI::Option* option : command.get_options()) {
+    // Files may be called anything.
+    const bool is_a_file = option->get_type_name() == "FILE" || option->get_type_name() == "DIR";
+    if (is_a_file || !option->nonpositional()) continue;
+    for (const std::string& value : option->results())
+      if (const std::size_t at = first_byte_not_utf8(value); at != std::string::npos)
+        throw InputError(kCommandLine, option->get_name(), byte_in_words(value[at]) + " in " + in_quotes(value),
+                         "a text in UTF-8");
+  }
 }
 
 std::string help_of_program() { return ProgramOptions().app.help(); }

@@ -22,7 +22,8 @@ struct ProgramOptions {
   ProgramOptions();
 };
 
-// An unset variable of a shell leaves an empty text, which is no value. Throws InputError naming the option, or what the verb is called on.
-void refuse_empty_values(const CLI::App& command);
+// An unset variable of a shell leaves an empty text, which is no value; nor is one that is not UTF-8, but of a file. Throws InputError naming
+// the option, or what the verb is called on.
+void refuse_values_that_are_none(const CLI::App& command);
 
 }  // namespace boresight::app

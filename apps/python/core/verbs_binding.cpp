@@ -32,7 +32,7 @@ int execute(const std::vector<std::string>& words) {
     throw InputError({"command line", 0}, words.front(), error.what(),
                      "options as in boresight " + words.front() + " --help");
   }
-  for (const CLI::App* parsed : program.app.get_subcommands()) refuse_empty_values(*parsed);
+  for (const CLI::App* parsed : program.app.get_subcommands()) refuse_values_that_are_none(*parsed);
   for (std::size_t i = 0; i < program.verbs.size(); ++i) {
     if (!program.commands[i]->parsed()) continue;
     const Command command = program.options[i].command(program.verbs[i]->name());

@@ -212,8 +212,14 @@ double convert(std::string_view unit_text, const SiUnit& expected, const std::st
 }  // namespace
 
 std::string in_quotes(std::string_view text) {
-  std::string shown(text.size() > 80 ? text.substr(0, 60) : text);
-  if (text.size() > 80) shown += "...";
+  constexpr std::size_t kMostLetters = 80, kShown = 60;
+  // Of UTF-8: bytes that go on with a letter begin none.
+  const auto begins = [&](std::size_t k) { return (static_cast<unsigned char>(text[k]) & 0xc0) != 0x80; };
+  std::size_t letters = 0, cut = text.size();
+  for (std::size_t k = 0; k < text.size(); ++k)
+    if (begins(k) && letters++ == kShown) cut = k;
+  std::string shown(letters > kMostLetters ? text.substr(0, cut) : text);
+  if (letters > kMostLetters) shown += "...";
   return "\"" + shown + "\"";
 }
 

@@ -72,7 +72,7 @@ double scale_of_unit(std::string_view unit, const SiUnit& expected);
 // A whole text as one finite decimal number, else false. No "nan", "inf", hexadecimal or trailing characters.
 bool parse_number(std::string_view text, double& value);
 
-// A text between quotation marks, shortened if it is long: how values are shown in errors.
+// A text between quotation marks, shortened to 60 letters if it has more than 80: how values are shown in errors.
 std::string in_quotes(std::string_view text);
 
 }  // namespace boresight

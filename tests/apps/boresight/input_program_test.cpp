@@ -92,6 +92,22 @@ TEST_F(InputProgram, AnOptionThatTheNamedRungDoesNotReadIsRefused) {
 }
 
 // As an unset variable of a shell leaves it.
+TEST_F(InputProgram, AByteThatIsNoUtf8IsRefusedByTheNameOfItsOption) {
+  const std::string urdf = std::string(BORESIGHT_EXAMPLES) + "/from-urdf/gimbal.urdf";
+  for (const auto& [option, value] : {std::pair<std::string, std::string>{"--drive", "pan=\xff*t; tilt"},
+                                      {"--duration", "1 \xe4s"},
+                                      {"--boresight", "\xc3"}}) {
+    const Ended ended = call({"import", urdf, "--to", "made.toml", option, value});
+    EXPECT_EQ(ended.status, 2) << ended.err;
+    EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+    EXPECT_NE(ended.err.find(option + ": found the byte 0x"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find("expected a text in UTF-8"), std::string::npos) << ended.err;
+  }
+  const Ended set = call({"check", mechanism_, "--set", "clearance.F1.radial=0.1 \xb5m", "--out", "out"});
+  EXPECT_EQ(set.status, 2) << set.err;
+  EXPECT_NE(set.err.find("--set: found the byte 0xB5"), std::string::npos) << set.err;
+}
+
 TEST_F(InputProgram, AnEmptyValueIsRefusedAndNotTakenForNone) {
   for (const char* option : {"--step", "--sample", "--integrator", "--tolerance", "--formulation", "--stabilisation",
                              "--pose", "--set", "--out", "--rung", "--accuracy", "--jobs", "--sample-number",

@@ -193,6 +193,15 @@ TEST(Units, AreSafeFromManyThreads) {
   for (const double sum : sums) EXPECT_NEAR(sum, 200 * 2e-3, 1e-12);
 }
 
+// Two bytes a letter: 81 letters are cut after 60 of them, and 80 are not.
+TEST(Quotes, CountAndCutLetters) {
+  std::string eighty, sixty;
+  for (int k = 0; k < 80; ++k) eighty += "\u00e4";
+  for (int k = 0; k < 60; ++k) sixty += "\u00e4";
+  EXPECT_EQ(in_quotes(eighty), "\"" + eighty + "\"");
+  EXPECT_EQ(in_quotes("x" + eighty), "\"x" + sixty.substr(2) + "...\"");
+}
+
 TEST(Numbers, AreReadWholeOrNotAtAll) {
   double value = 0.0;
   EXPECT_TRUE(parse_number("0.7", value));
