@@ -30,7 +30,11 @@ std::vector<FunctionInput> inputs_named(const Mechanism& mechanism, const std::v
   for (const std::string& path : paths) {
     const ParameterPath place(mechanism.description(), path);
     if (!seen.insert(path).second) throw InputError({}, path, "it a second time", "each input once");
-    inputs.push_back({{path}, place.unit(), place.values(mechanism.parameters()), {place}});
+    inputs.push_back({{path},
+                      place.unit(),
+                      place.values(mechanism.parameters()),
+                      {place},
+                      names_scales(mechanism.description(), path)});
   }
   return inputs;
 }
@@ -40,7 +44,7 @@ std::vector<FunctionInput> inputs_of(const RandomInputs& random) {
   std::vector<FunctionInput> inputs;
   for (std::size_t i = 0; i < random.size(); ++i) {
     const RandomParameter& p = random.parameters[i];
-    inputs.push_back({p.paths, p.si_unit, {medians[i]}, p.places});
+    inputs.push_back({p.paths, p.si_unit, {medians[i]}, p.places, p.are_scales});
   }
   return inputs;
 }

@@ -17,7 +17,9 @@ struct FunctionInput {
   // that of the file then.
   std::vector<double> nominal;
   std::vector<ParameterPath> places;
+  bool are_scales = false;  // of drives: shares, whatever they are computed in
 
+  std::string told_unit() const { return are_scales ? "1" : si_unit; }
   const std::string& name() const { return paths.front(); }
 };
 

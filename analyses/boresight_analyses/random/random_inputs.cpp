@@ -87,7 +87,8 @@ RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechan
                      "parameters that have one value in the mechanism: the planes lie about it");
   random.distribution = read_distribution(distribution, unit_of_parameters(mechanism, random.paths, random.si_unit),
                                           journals, here.front());
-  random.unit = unit_of(distribution);
+  random.are_scales = are_scales(mechanism, random.paths);
+  random.unit = unit_to_say(mechanism, random.paths, unit_of(distribution));
   check_ends(entry, random, accepts);
   return random;
 }
@@ -128,7 +129,8 @@ void read_drawn_together(Cursor& entry, const MechanismDescription& mechanism,
   const ToleranceDisc disc(radius, centre, read_zone_law(distribution));
   for (std::size_t k = 0; k < 2; ++k) {
     pair[k].distribution = disc.marginal(k);
-    pair[k].unit = unit_of(distribution);
+    pair[k].are_scales = are_scales(mechanism, pair[k].paths);
+    pair[k].unit = unit_to_say(mechanism, pair[k].paths, unit_of(distribution));
     check_ends(entry, pair[k], accepts);
   }
   distribution.finish();
@@ -147,6 +149,8 @@ void read_rows_of(Cursor& entry, const MechanismDescription& mechanism,
   for (std::size_t k = 0; k < paths.size(); ++k) {
     row[k].paths = {paths[k]};
     row[k].places.emplace_back(mechanism, paths[k], entry.origin(key));
+    row[k].are_scales = are_scales(mechanism, row[k].paths);
+    row[k].unit = unit_to_say(mechanism, row[k].paths, "");
     units.push_back(row[k].si_unit = row[k].places[0].unit());
   }
   Cursor distribution = entry.table("distribution");

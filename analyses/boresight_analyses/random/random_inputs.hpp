@@ -54,7 +54,10 @@ struct RandomParameter {
   std::string unit;  // in which the distribution is written: "mm"; "" where it has none
   DistributionPtr distribution;
   std::vector<ParameterPath> places;
+  bool are_scales = false;  // of drives: shares, whatever they are computed in
 
+  // What their values are told in where no other unit is said: "1" of scales.
+  std::string told_unit() const { return are_scales ? "1" : si_unit; }
   const std::string& name() const { return paths.front(); }
 };
 

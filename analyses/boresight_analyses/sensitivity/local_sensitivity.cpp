@@ -19,6 +19,7 @@ LocalSensitivity described(const RandomParameter& parameter) {
   LocalSensitivity s;
   s.name = parameter.name();
   s.si_unit = parameter.si_unit;
+  s.told_unit = parameter.told_unit();
   s.unit = parameter.unit;
   s.median = d.quantile(0.5);
   s.sd = d.sd();

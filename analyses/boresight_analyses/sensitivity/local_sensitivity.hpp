@@ -18,6 +18,7 @@ namespace boresight {
 
 struct LocalSensitivity {
   std::string name, si_unit, unit;        // unit: as the study writes it
+  std::string told_unit;                  // of its slopes: "1" of scales, si_unit of all others
   double median = 0.0, sd = 0.0;          // of the parameter [SI]
   double low = 0.0, high = 0.0;           // its 5 % and 95 % quantile
   double at_low = 0.0, at_high = 0.0;     // the index there; NaN: that run failed

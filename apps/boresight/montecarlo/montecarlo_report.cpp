@@ -244,7 +244,8 @@ report::Table input_table(const MonteCarloStudy& s) {
     std::string paths;
     for (const std::string& path : p.paths) paths += (paths.empty() ? "" : " = ") + path;
     const auto text = [&](double v) { return readable_as(v, p.si_unit, p.unit); };
-    table.rows.push_back({paths, short_text(s.plan.inputs.text_of(i)) + (p.si_unit == "1" ? "" : ", in " + p.si_unit),
+    table.rows.push_back({paths,
+                          short_text(s.plan.inputs.text_of(i)) + (p.told_unit() == "1" ? "" : ", in " + p.si_unit),
                           text(p.distribution->mean()), text(p.distribution->sd()),
                           text(p.distribution->quantile(0.001)), text(p.distribution->upper_quantile(0.001))});
   }

@@ -375,7 +375,7 @@ class MonteCarloVerb : public Verb {
     for (std::size_t i = 0; i < s.plan.inputs.size(); ++i) {
       const RandomParameter& p = s.plan.inputs.parameters[i];
       json["random"].push_back({{"parameters", p.paths},
-                                {"unit", p.si_unit},
+                                {"unit", p.told_unit()},
                                 {"distribution", s.plan.inputs.text_of(i).substr(0, 400)},
                                 {"mean", number_json(p.distribution->mean())},
                                 {"sd", number_json(p.distribution->sd())}});

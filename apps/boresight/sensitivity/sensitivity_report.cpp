@@ -78,11 +78,12 @@ report::Section local_section(const SensitivityStudy& s) {
     const double slope = p.derivative.back();
     table.rows.push_back(
         {p.name, readable_as(p.median, p.si_unit, p.unit), readable(p.at_low, unit), readable(p.at_high, unit),
-         p.meaningful ? nlohmann::json(fmt::format("{:.4g} {}", slope, per(unit, p.si_unit))) : nlohmann::json("none"),
+         p.meaningful ? nlohmann::json(fmt::format("{:.4g} {}", slope, per(unit, p.told_unit)))
+                      : nlohmann::json("none"),
          p.meaningful ? nlohmann::json(readable(slope * p.sd, unit)) : nlohmann::json(""),
          p.meaningful ? "yes" : "no: " + p.why_not,
          std::isfinite(p.exact)
-             ? fmt::format("{:.4g} {}{}", p.exact, per(unit, p.si_unit), p.exact_agrees ? "" : " (does not agree)")
+             ? fmt::format("{:.4g} {}{}", p.exact, per(unit, p.told_unit), p.exact_agrees ? "" : " (does not agree)")
          : p.exact_note.empty() ? "perturbation rung only"
                                 : p.exact_note});
   }

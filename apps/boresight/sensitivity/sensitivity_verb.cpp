@@ -31,7 +31,7 @@ void write_local(std::ostream& out, const LocalResult& local) {
   for (const char* name : {"half", "quarter", "eighth"}) out << ",step_" << name << ",derivative_" << name;
   out << ",meaningful,exact,exact_agrees\n";
   for (const LocalSensitivity& p : local.parameters) {
-    out << csv_field(p.name) << ',' << csv_field(p.si_unit);
+    out << csv_field(p.name) << ',' << csv_field(p.told_unit);
     for (const double v : {p.median, p.sd, p.low, p.high, p.at_low, p.at_high}) out << ',' << exact(v);
     for (std::size_t k = 0; k < p.step.size(); ++k) out << ',' << exact(p.step[k]) << ',' << exact(p.derivative[k]);
     out << ',' << (p.meaningful ? "true" : "false") << ',' << exact(p.exact) << ','
@@ -214,7 +214,7 @@ class SensitivityVerb : public Verb {
         Json steps = Json::array();
         for (std::size_t k = 0; k < p.step.size(); ++k)
           steps.push_back({{"step", number_json(p.step[k])}, {"derivative", number_json(p.derivative[k])}});
-        json["local"][p.name] = {{"unit", p.si_unit},
+        json["local"][p.name] = {{"unit", p.told_unit},
                                  {"median", p.median},
                                  {"low", p.low},
                                  {"high", p.high},

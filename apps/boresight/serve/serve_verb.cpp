@@ -72,7 +72,7 @@ class ServeVerb : public Verb {
     tell("  output, one number [{}]: {}\n", f.model().index.si_unit(), f.model().index.title());
     tell("  input, {} numbers:\n", f.inputs().size());
     for (const FunctionInput& input : f.inputs())
-      tell("    {} [{}], here {:.6g}\n", input.name(), input.si_unit, fmt::join(input.nominal, " and "));
+      tell("    {} [{}], here {:.6g}\n", input.name(), input.told_unit(), fmt::join(input.nominal, " and "));
     if (const std::string why = f.why_no_slopes(); !why.empty()) tell("  no gradients: {}\n", why);
     if (address_ != kLocal && address_ != "localhost" && address_ != "::1")
       tell("  warning: whoever reaches {} may have this machine compute; there is no password\n", address_);

@@ -206,7 +206,7 @@ void bind_function(py::module_& module) {
           "units",
           [](const Function& f) {
             std::vector<std::string> units;
-            for (const FunctionInput& input : f.of->inputs()) units.push_back(input.si_unit);
+            for (const FunctionInput& input : f.of->inputs()) units.push_back(input.told_unit());
             return units;
           },
           "Of the inputs.")

@@ -104,7 +104,7 @@ double value_for(const Mechanism& mechanism, const std::string& path, const py::
   try {
     double number = 0.0;
     if (!py::isinstance<py::str>(value))
-      number = number_of(value, input.si_unit);
+      number = number_of(value, input.told_unit());
     else if (const auto text = value.cast<std::string>(); input.si_unit != "1")
       number = parse_quantity(text, unit_of_parameters(mechanism.description(), {path}, input.si_unit));
     else if (!parse_number(text, number))

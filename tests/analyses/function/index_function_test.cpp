@@ -52,6 +52,13 @@ TEST(FunctionInputs, HaveTheUnitAndTheValueOfTheirPath) {
   EXPECT_EQ(inputs[1].si_unit, "kg");
 }
 
+TEST(FunctionInputs, OfScalesAreTheSharesThatTheyAre) {
+  const Mechanism errors(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/tolerances.toml"));
+  const auto inputs = inputs_named(errors, {"error.A1.scale", "error.A1.zero"});
+  EXPECT_EQ(inputs[0].told_unit(), "1");
+  EXPECT_EQ(inputs[1].told_unit(), "rad");
+}
+
 // A shaft of steel in a housing of aluminium: one path, two materials.
 TEST(FunctionInputs, HaveNoSingleValueWhereTheirPathNamesNumbersThatDiffer) {
   const std::string path = "clearance.D.contact.young";

@@ -45,6 +45,22 @@ class RandomInputsTest : public testing::Test {
       std::make_shared<const Mechanism>(read_mechanism(kDefaultMechanism));
 };
 
+// Computed in the radians of its drive, told as the share that it is: the same number of either.
+TEST_F(RandomInputsTest, TellsTheScaleOfADriveAsAShare) {
+  const MechanismDescription errors = read_mechanism(BORESIGHT_EXAMPLES "/3-rrcpr/tolerances.toml");
+  Document document =
+      Document::from_text(one("error.A1.scale", "{ normal = { mean = \"0 ppm\", sd = \"50 ppm\" } }") +
+                              one("error.A1.zero", "{ normal = { mean = \"0 rad\", sd = \"1 mrad\" } }"),
+                          "study.toml");
+  Cursor root(document);
+  const RandomInputs inputs = read_random_inputs(root, errors, [](const Setting&) {});
+  EXPECT_EQ(inputs.parameters[0].si_unit, "rad");
+  EXPECT_EQ(inputs.parameters[0].told_unit(), "1");
+  EXPECT_EQ(inputs.parameters[0].unit, "ppm");
+  EXPECT_NEAR(inputs.parameters[0].distribution->sd(), 5e-5, 1e-18);
+  EXPECT_EQ(inputs.parameters[1].told_unit(), "rad");
+}
+
 TEST_F(RandomInputsTest, ReadsTheStudyOfTheInterface) {
   const RandomInputs inputs =
       read(radial("{ normal = { mean = \"0.1 mm\", sd = \"0.01 mm\" }, truncate = [\"0.05 mm\", \"0.15 mm\"] }") +
