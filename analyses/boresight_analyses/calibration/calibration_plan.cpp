@@ -124,12 +124,9 @@ void check_values(const PlannedParameter& p, const Mechanism& mechanism,
 }
 
 FittedParameter planned_parameter(const PlannedParameter& p, const Mechanism& mechanism) {
-  const ParameterPath place(mechanism.description(), p.path, p.origin);
-  const std::vector<double> own = place.values(mechanism.parameters());
-  if (!p.start && own.size() > 1)
-    throw InputError(p.origin, p.path, differing_in_words(own, place.unit()),
-                     "start = .., as one value is fitted to all of them");
-  FittedParameter fitted = fitted_parameter(mechanism.description(), p.path, p.start.value_or(own.front()), p.origin);
+  // Where numbers of the path differ, the first of them: a start alone, from which one value is fitted to all.
+  const double own = ParameterPath(mechanism.description(), p.path, p.origin).values(mechanism.parameters()).front();
+  FittedParameter fitted = fitted_parameter(mechanism.description(), p.path, p.start.value_or(own), p.origin);
   if (!fitted.is_error() && !(fitted.start > 0.0))
     throw InputError(p.origin, p.path, "a start of 0", "start = ..., more than 0");
   if (!p.written_unit.empty()) fitted.written_unit = p.written_unit;

@@ -37,26 +37,6 @@ TEST_F(CalibrateInput, RefusesARigThatMakesNoSenseOrThatNobodyAskedFor) {
     refused({option, value}, std::string(option) + ": found \"" + value + "\" without --make-data");
 }
 
-// A shaft of steel in a housing of aluminium: one value is fitted to both, and neither's own is where it starts.
-TEST_F(CalibrateInput, AsksForAStartWhereThePathNamesNumbersThatDiffer) {
-  std::ofstream(folder_ / "both.toml") << R"toml(format = 1
-mechanism = "rig.toml"
-[calibrate]
-starts = 1
-[[calibrate.parameter]]
-path = "clearance.D.contact.young"
-[[calibrate.run]]
-data = "slow.csv"
-set = ["motion.drives.A=2*pi*2*t"]
-)toml";
-  const Ended ended = call({"calibrate", "both.toml"});
-  EXPECT_EQ(ended.status, 2) << ended.err;
-  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
-  EXPECT_NE(ended.err.find("clearance.D.contact.young: found values from 7.2e+10 to 2.07e+11 Pa, expected start = .."),
-            std::string::npos)
-      << ended.err;
-}
-
 // A sensor that works in a part of one run that nobody fits: with offsets of each run, nothing would tell its own.
 TEST_F(CalibrateInput, RefusesToHoldOutAllThatTellsAnOffset) {
   std::ifstream in(folder_ / "slow.csv");
