@@ -77,6 +77,9 @@ FidelityStudy run_fidelity_study(const StudyRun& run, const MonteCarloPlan& plan
     study.failures.add(stored.failures);
     return stored;
   };
+  std::function<IndependentInterval(const std::vector<double>&)> excess_of;  // of the first rung's values
+  std::vector<std::vector<double>> values;
+  std::vector<double> model_errors;  // of the first rung's
   try {
     for (const Level& level : levels) {
       doing = "pilot on " + level.rung;
@@ -89,20 +92,29 @@ FidelityStudy run_fidelity_study(const StudyRun& run, const MonteCarloPlan& plan
     stage->clear();
     study.plan = plan_of(study, plan);
     if (planned) planned(study.plan);
-    std::vector<std::vector<double>> values;
     for (std::size_t k = 0; k < study.plan.models.size(); ++k) {
       const Level& level = levels[static_cast<std::size_t>(study.plan.models[k])];
       doing = std::to_string(study.plan.samples[k]) + " samples on " + level.rung;
-      values.push_back(
-          samples_of(level, {asked.pilot, asked.pilot + static_cast<std::uint64_t>(study.plan.samples[k])}).values);
+      StoredValues stored =
+          samples_of(level, {asked.pilot, asked.pilot + static_cast<std::uint64_t>(study.plan.samples[k])});
+      if (k == 0) {
+        study.rung_error = stored.model;
+        model_errors = std::move(stored.model_errors);
+      }
+      values.push_back(std::move(stored.values));
     }
     study.mean = estimate_fidelities(study.plan, values, plan.confidence);
     if (plan.requirement) {
       const ExcessPilot excess = excess_pilot(study.pilot, plan.requirement->limit);
       const FidelityPlan weighted = with_excess_weights(study.plan, study.pilot, excess, plan.requirement->limit);
-      // Two sides at 2 c - 1 are one side at c each.
-      study.excess = excess_bounds(weighted, excess_indicators(weighted, values, excess.limits),
-                                   2.0 * plan.requirement->confidence - 1.0);
+      excess_of = [&values, &plan, excess, weighted](const std::vector<double>& first) {
+        std::vector<std::vector<double>> of_all = values;
+        of_all.front() = first;
+        // Two sides at 2 c - 1 are one side at c each.
+        return excess_bounds(weighted, excess_indicators(weighted, of_all, excess.limits),
+                             2.0 * plan.requirement->confidence - 1.0);
+      };
+      study.excess = excess_of(values.front());
     }
   } catch (const MethodInterrupted&) {
     stage->clear();
@@ -112,11 +124,18 @@ FidelityStudy run_fidelity_study(const StudyRun& run, const MonteCarloPlan& plan
   stage->clear();
   RunOptions top = run.options().run;
   if (levels[0].model->step() > 0.0) top.step = levels[0].model->step();
+  const ScatterStatistic statistic =
+      plan.requirement ? ScatterStatistic{plan.requirement->probability} : ScatterStatistic{};
   study.steps = run.steps_of_scatter({.inputs = plan.inputs,
+                                      .statistic = statistic,
                                       .runs = static_cast<std::uint64_t>(study.plan.samples[0]),
                                       .lanes = levels[0].model->batch() > 1},
                                      top, asked.models.front(), levels[0].store.get());
   study.interrupted = study.steps.interrupted;
+  study.model_error = study.rung_error + (std::isfinite(study.steps.relative) ? study.steps.relative : 0.0);
+  // The cheap rungs' values stay: whatever they are, the estimate is that of the first rung's.
+  if (excess_of && study.model_error > 0.0)
+    study.excess_within_error = excess_of(as_large_as_may_be(values.front(), model_errors, study.steps.relative));
   return study;
 }
 

@@ -23,9 +23,13 @@ struct FidelityStudy {
   FidelityPlan plan;
   FidelityEstimate mean;
   std::optional<IndependentInterval> excess;  // probability of exceeding the requirement's limit
-  double spent = 0.0;                         // CPU seconds of all samples, measured
-  std::vector<double> measured_cost;          // CPU seconds of a sample, per rung
-  Failures failures;                          // on any rung
+  double rung_error = 0.0;   // what the first rung thinks it leaves out, relative: mean over its samples
+  double model_error = 0.0;  // and its steps with it, where they were measured
+  std::optional<IndependentInterval>
+      excess_within_error;            // if each sample were larger by its own; none where that is nothing
+  double spent = 0.0;                 // CPU seconds of all samples, measured
+  std::vector<double> measured_cost;  // CPU seconds of a sample, per rung
+  Failures failures;                  // on any rung
   StudySteps steps;
   SampleStore::Cost earlier;
   std::string leaves_out;  // the first rung

@@ -28,6 +28,16 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+std::vector<double> as_large_as_may_be(std::vector<double> values, const std::vector<double>& model_errors,
+                                       double steps) {
+  const double alike = std::isfinite(steps) ? steps : 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double own = k < model_errors.size() && std::isfinite(model_errors[k]) ? model_errors[k] : 0.0;
+    values[k] += (alike + own) * std::abs(values[k]);
+  }
+  return values;
+}
+
 void complete_samples(const SampleModel& model, const RandomInputs& inputs, const SamplingDesign& design,
                       const NumberRange& range, SampleStore& store, const MethodOptions& options) {
   std::vector<NumberRange> missing;
@@ -58,6 +68,7 @@ StoredValues stored_values(const SampleStore& store, const NumberRange& range) {
     const bool good = r.outcome.status == Outcome::Status::done;
     result.failures.see(r.number, r.outcome);
     result.values.push_back(good ? r.outcome.value : std::numeric_limits<double>::quiet_NaN());
+    result.model_errors.push_back(good ? r.outcome.model_error : 0.0);
     costs.push_back(r.outcome.cpu_seconds);
     result.spent += r.outcome.cpu_seconds;
     if (!good) return;
@@ -112,6 +123,7 @@ class AskedPoints {
       const bool done = outcomes[k].status == Outcome::Status::done;
       values.push_back(done ? outcomes[k].value : std::numeric_limits<double>::quiet_NaN());
       if (outcomes[k].status == Outcome::Status::failed && options_.failed) options_.failed(k, outcomes[k]);
+      if (options_.answered) options_.answered(outcomes[k]);
     }
     return values;
   }

@@ -22,6 +22,8 @@ struct MethodOptions {
   std::function<bool()> interrupted;
   // Each point that did, by its number in its batch and in that order, once the batch is done.
   std::function<void(std::uint64_t, const Outcome&)> failed = {};
+  // Each point, in the order in which the method asked for it, once its batch is done.
+  std::function<void(const Outcome&)> answered = {};
 };
 
 // The numbers of a range that the store lacks are computed and stored. Throws MethodInterrupted; what was computed is stored.
@@ -29,10 +31,11 @@ void complete_samples(const SampleModel& model, const RandomInputs& inputs, cons
                       const NumberRange& range, SampleStore& store, const MethodOptions& options);
 
 struct StoredValues {
-  std::vector<double> values;  // in the order of the numbers; NaN: failed
-  double typical_cost = 0.0;   // median CPU seconds of a sample: preparing what all share is not a sample's cost
-  double spent = 0.0;          // CPU seconds
-  double model = 0.0;          // mean of what the rung thinks it leaves out, relative
+  std::vector<double> values;        // in the order of the numbers; NaN: failed
+  std::vector<double> model_errors;  // of each: what the rung thinks it leaves out, relative; 0 where not known
+  double typical_cost = 0.0;         // median CPU seconds of a sample: preparing what all share is not a sample's cost
+  double spent = 0.0;                // CPU seconds
+  double model = 0.0;                // mean of the model errors
   Failures failures;
 };
 StoredValues stored_values(const SampleStore& store, const NumberRange& range);
@@ -47,5 +50,9 @@ BatchModel on_normal_space(const SampleModel& model, const RandomInputs& inputs,
                            std::shared_ptr<std::vector<double>> cost, SampleStore* store = nullptr);
 
 double median(std::vector<double> values);
+
+// As large as the values may be, by each one's own model error and by what the steps do to all of them (NaN: not known), both relative.
+std::vector<double> as_large_as_may_be(std::vector<double> values, const std::vector<double>& model_errors,
+                                       double steps);
 
 }  // namespace boresight

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "boresight_analyses/runs/counted_cost.hpp"
@@ -21,10 +22,45 @@ struct Level {
   std::shared_ptr<std::vector<double>> seconds = std::make_shared<std::vector<double>>();
 };
 
+// What a model answered, in the order in which it was asked.
+struct Answers {
+  std::vector<double> values, model_errors;
+
+  void add(const Outcome& outcome) {
+    const bool done = outcome.status == Outcome::Status::done;
+    values.push_back(done ? outcome.value : std::numeric_limits<double>::quiet_NaN());
+    model_errors.push_back(done ? outcome.model_error : 0.0);
+  }
+  void clear() {
+    values.clear();
+    model_errors.clear();
+  }
+};
+
+// Gives these values to whatever points it is asked for: a method that is begun again asks for the same.
+BatchModel once_more(std::vector<double> values) {
+  return [values = std::move(values), at = std::size_t{0}](const Points& points) mutable {
+    const auto from = values.begin() + static_cast<std::ptrdiff_t>(at);
+    at += points.size();
+    return std::vector<double>(from, from + static_cast<std::ptrdiff_t>(points.size()));
+  };
+}
+
+double mean_of_done(const Answers& answers) {
+  double sum = 0.0, done = 0.0;
+  for (std::size_t k = 0; k < answers.values.size(); ++k) {
+    if (!std::isfinite(answers.values[k])) continue;
+    sum += answers.model_errors[k];
+    done += 1.0;
+  }
+  return done > 0.0 ? sum / done : 0.0;
+}
+
 }  // namespace
 
 bool TailStudy::met(const Requirement& requirement) const {
-  return estimate.bounds.high <= 1.0 - requirement.probability;
+  const double most = 1.0 - requirement.probability;
+  return estimate.bounds.high <= most && (!within_error || within_error->bounds.high <= most);
 }
 
 double TailStudy::points_to_show(const Requirement& requirement) const {
@@ -78,10 +114,17 @@ TailStudy run_tail_study(const StudyRun& run, const MonteCarloPlan& plan,
                                     // In the order in which they fail: the first that is told of is the one to tell.
                                     study.failures.see(study.failures.count, outcome);
                                   }};
+  Answers of_cheap, of_exact;
+  const auto keeping = [&](Answers& answers) {
+    MethodOptions keeps = options;
+    keeps.answered = [&answers](const Outcome& outcome) { answers.add(outcome); };
+    return keeps;
+  };
   const BatchModel cheap =
-      on_normal_space(*cheap_level.model, plan.inputs, options, cheap_level.seconds, cheap_level.store.get());
+      on_normal_space(*cheap_level.model, plan.inputs, keeping(of_cheap), cheap_level.seconds, cheap_level.store.get());
   const BatchModel exact =
-      on_normal_space(*exact_level.model, plan.inputs, options, exact_level.seconds, exact_level.store.get());
+      on_normal_space(*exact_level.model, plan.inputs, keeping(of_exact), exact_level.seconds, exact_level.store.get());
+  std::function<TailEstimate(const BatchModel&, const BatchModel&)> estimated;
   try {
     const SamplingDesign design(plan.design, dimensions);
     const auto cost_of = [&](const Level& level) {
@@ -98,12 +141,16 @@ TailStudy run_tail_study(const StudyRun& run, const MonteCarloPlan& plan,
     searching = false;
     stage = run.stage(asked.budget, "s of CPU");
     const TailOptions tail{.confidence = 2.0 * requirement.confidence - 1.0, .seed = plan.design.seed};
-    const TwoLevelPlan& pilot = study.pilot;
-    study.estimate =
-        pilot.control > 0.0
-            ? two_level_importance_sampling(cheap, exact, requirement.limit, pilot.proposal.mixture, pilot.cheap_points,
-                                            pilot.exact_points, pilot.control, tail)
-            : importance_sampling(exact, requirement.limit, pilot.proposal.mixture, pilot.exact_points, tail);
+    estimated = [&, tail](const BatchModel& on_cheap, const BatchModel& on_exact) {
+      const TwoLevelPlan& pilot = study.pilot;
+      return pilot.control > 0.0
+                 ? two_level_importance_sampling(on_cheap, on_exact, requirement.limit, pilot.proposal.mixture,
+                                                 pilot.cheap_points, pilot.exact_points, pilot.control, tail)
+                 : importance_sampling(on_exact, requirement.limit, pilot.proposal.mixture, pilot.exact_points, tail);
+    };
+    of_cheap.clear();
+    of_exact.clear();
+    study.estimate = estimated(cheap, exact);
   } catch (const MethodInterrupted&) {
     study.interrupted = true;
   }
@@ -111,6 +158,21 @@ TailStudy run_tail_study(const StudyRun& run, const MonteCarloPlan& plan,
   study.estimate_seconds = spent;
   study.cheap_seconds = median(*cheap_level.seconds);
   study.exact_seconds = median(*exact_level.seconds);
+  if (study.interrupted) return study;
+  RunOptions top = run.options().run;
+  if (exact_level.model->step() > 0.0) top.step = exact_level.model->step();
+  study.steps = run.steps_of_scatter({.inputs = plan.inputs,
+                                      .statistic = {requirement.probability},
+                                      .runs = static_cast<std::uint64_t>(study.estimate.exact_evaluations),
+                                      .lanes = exact_level.model->batch() > 1},
+                                     top, asked.exact, exact_level.store.get());
+  study.interrupted = study.steps.interrupted;
+  study.rung_error = mean_of_done(of_exact);
+  study.model_error = study.rung_error + (std::isfinite(study.steps.relative) ? study.steps.relative : 0.0);
+  if (study.model_error > 0.0)
+    study.within_error =
+        estimated(once_more(of_cheap.values),
+                  once_more(as_large_as_may_be(of_exact.values, of_exact.model_errors, study.steps.relative)));
   return study;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,15 +21,20 @@ namespace boresight {
 struct TailStudy {
   TwoLevelPlan pilot{.proposal = {{}, GaussianMixture(1), 0}};
   TailEstimate estimate;
-  TwoLevelCosts costs;                                  // counted
-  double cheap_seconds = 0.0, exact_seconds = 0.0;      // CPU of a sample, the median
+  // Of the exact rung: what its steps do, what it thinks it leaves out (the mean over the estimate's points), and both together, relative.
+  StudySteps steps = {};
+  double rung_error = 0.0, model_error = 0.0;
+  std::optional<TailEstimate> within_error = {};    // if each point were larger by its own; none where that is nothing
+  TwoLevelCosts costs;                              // counted
+  double cheap_seconds = 0.0, exact_seconds = 0.0;  // CPU of a sample, the median
   double search_seconds = 0.0, estimate_seconds = 0.0;  // CPU, measured
   Failures failures;                                    // of all points
   SampleStore::Cost earlier;
   std::string leaves_out;  // the exact rung
   bool interrupted = false;
 
-  // At most this share may exceed the limit, and at most that much is shown to.
+  // At most this share may exceed the limit, and at most that much is shown to: of the points, and if each were larger by what rung and
+  // steps may be off by.
   bool met(const Requirement& requirement) const;
   // Points on the exact rung that would show it, about; 0 where more of them would not.
   double points_to_show(const Requirement& requirement) const;

@@ -97,6 +97,8 @@ int run_fidelities(const SeveralRungs& s) {
     return kInterrupted;
   }
   const StudySteps& steps = o.steps;
+  const double known_steps =
+      std::isnan(steps.relative) ? 0.0 : steps.relative;  // what was not measured does not stand first
   const double sampling = 0.5 * (o.mean.value.high - o.mean.value.low) / std::abs(o.mean.value.value);
   std::vector<std::string> warnings = several_rungs_warnings(s);
   if (o.mean.failed > 0)
@@ -105,8 +107,7 @@ int run_fidelities(const SeveralRungs& s) {
   if (o.plan.models.size() == 1)
     warnings.push_back("the cheaper rungs do not pay: this is plain Monte Carlo on " + top +
                        ", the pilot was spent in vain");
-  bool met = true;
-  double shown = 0.0;  // of all cases, at least
+  std::optional<RequirementShown> requirement;
   Json json = several_rungs_summary(s, top, warnings, o.earlier);
   json["samples"] = o.plan.samples[0];
   json["failed"] = o.mean.failed;
@@ -114,26 +115,14 @@ int run_fidelities(const SeveralRungs& s) {
   json["index"]["mean"] = interval_json(reported(o.mean.value));
   json["error"] = {{"of", "mean"},
                    {"sampling", {{"relative", sampling}, {"why", o.mean.value.basis}}},
-                   {"discretisation", {{"relative", number_json(steps.relative)}, {"why", steps.why}}},
-                   {"rung", {{"relative", 0.0}, {"why", "unbiased for the " + top + " rung"}}},
-                   {"dominant", steps.relative > sampling ? "discretisation" : "sampling"}};
+                   {"dominant", sampling >= std::max(known_steps, o.rung_error) ? "sampling"
+                                : o.rung_error >= known_steps                   ? "rung"
+                                                                                : "discretisation"}};
+  json["error"].update(model_error_json(top, o.rung_error, steps));
   if (o.excess) {
-    const IndependentInterval& p = *o.excess;
-    const ReportedInterval below{1.0 - p.value,
-                                 std::clamp(1.0 - p.high, 0.0, 1.0),
-                                 std::clamp(1.0 - p.low, 0.0, 1.0),
-                                 plan.requirement->confidence,
-                                 plan.requirement->confidence,
-                                 false,
-                                 p.basis,
-                                 "independent"};
-    shown = below.low;
-    met = shown >= plan.requirement->probability;
-    json["requirement"] = {{"limit", plan.requirement->limit},
-                           {"asked_probability", plan.requirement->probability},
-                           {"confidence", plan.requirement->confidence},
-                           {"met", met},
-                           {"probability", interval_json(below)}};
+    requirement = requirement_shown(*plan.requirement, *o.excess,
+                                    o.excess_within_error ? &*o.excess_within_error : nullptr, o.model_error);
+    json["requirement"] = requirement_json(*plan.requirement, *requirement);
   }
   Json& f = json["fidelities"];
   for (std::size_t i = 0; i < asked.models.size(); ++i)
@@ -172,10 +161,9 @@ int run_fidelities(const SeveralRungs& s) {
   const std::string sentence = fmt::format("Mean {} ± {}, unbiased for {}", readable(o.mean.value.value, unit),
                                            readable(0.5 * (o.mean.value.high - o.mean.value.low), unit), top);
   document.verdict = report::Verdict{report::Standing::neutral, sentence};
-  if (o.excess)
-    document.verdict =
-        report::Verdict{met ? report::Standing::good : report::Standing::bad,
-                        sentence + (met ? "; the requirement is met" : "; the requirement is not shown to be met")};
+  if (requirement)
+    document.verdict = report::Verdict{requirement->met ? report::Standing::good : report::Standing::bad,
+                                       sentence + "; " + requirement_words(*requirement, top)};
   document.facts = {
       {"mean", readable(o.mean.value.value, unit), "", fmt::format("{:g} % confidence", 100.0 * plan.confidence)},
       {"forecast gain", readable_number(o.plan.gain), "",
@@ -193,13 +181,15 @@ int run_fidelities(const SeveralRungs& s) {
   s.own.out().publish();
   if (!s.command.quiet) {
     tell("  {}\n", sentence);
-    if (o.excess)
+    if (requirement) {
       tell(
           "  {} at or below {} in {:g} % of all cases: {}; by the samples of {} at least {:.4g} % with {:g} % "
           "confidence\n",
           s.question.study.index.title(), readable_limit(plan.requirement->limit, unit, plan.requirement->unit),
-          100.0 * plan.requirement->probability, met ? "met" : "not shown to be met", top, 100.0 * shown,
-          100.0 * plan.requirement->confidence);
+          100.0 * plan.requirement->probability, requirement->met ? "met" : "not shown to be met", top,
+          100.0 * requirement->share.low, 100.0 * plan.requirement->confidence);
+      if (requirement->met_by_samples && !requirement->met) tell("  {}\n", requirement_words(*requirement, top));
+    }
     tell("  gain measured: {:.3g} ({:.1f} s of CPU)\n", o.measured_gain(), o.spent);
     for (std::size_t k = 0; k < o.plan.models.size(); ++k)
       tell("  {:<14} {:>8} samples, correlation {:.4f}, {} each\n",
@@ -209,7 +199,7 @@ int run_fidelities(const SeveralRungs& s) {
     tell_warnings(warnings, s.command, *s.question.mechanism);
     tell("  report: {}\n", (s.own.out().path() / "report.html").string());
   }
-  return met ? kDone : kAnswerIsNo;
+  return requirement && !requirement->met ? kAnswerIsNo : kDone;
 }
 
 }  // namespace boresight::app

@@ -2,11 +2,70 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "report_parts/report_parts.hpp"
 #include "results/study_warnings.hpp"
 #include "terminal/readable.hpp"
 
 namespace boresight::app {
+
+namespace {
+
+ReportedInterval share_within(const Requirement& requirement, const IndependentInterval& excess) {
+  return {1.0 - excess.value,
+          std::clamp(1.0 - excess.high, 0.0, 1.0),
+          std::clamp(1.0 - excess.low, 0.0, 1.0),
+          requirement.confidence,
+          requirement.confidence,
+          false,
+          excess.basis,
+          "independent"};
+}
+
+}  // namespace
+
+RequirementShown requirement_shown(const Requirement& requirement, const IndependentInterval& excess,
+                                   const IndependentInterval* excess_within_error, double model_error) {
+  const double most = 1.0 - requirement.probability;  // that may exceed the limit
+  RequirementShown shown{.share = share_within(requirement, excess), .model_error = model_error};
+  shown.met = shown.met_by_samples = excess.high <= most;
+  if (excess_within_error == nullptr) return shown;
+  shown.within_error = share_within(requirement, *excess_within_error);
+  shown.met = shown.met && excess_within_error->high <= most;
+  return shown;
+}
+
+Json requirement_json(const Requirement& requirement, const RequirementShown& shown) {
+  Json json = {{"limit", requirement.limit},
+               {"asked_probability", requirement.probability},
+               {"confidence", requirement.confidence},
+               {"met", shown.met},
+               {"met_by_samples", shown.met_by_samples},
+               {"model_error", shown.model_error},
+               {"probability", interval_json(shown.share)}};
+  if (shown.within_error) json["within_model_error"] = interval_json(*shown.within_error);
+  for (const char* share : {"probability", "within_model_error"})
+    if (json.contains(share)) json[share]["bounds"] = "one-sided, each at this confidence";
+  return json;
+}
+
+std::string requirement_words(const RequirementShown& shown, const std::string& rung) {
+  if (shown.met) return "the requirement is met";
+  if (!shown.met_by_samples) return "the requirement is not shown to be met";
+  return fmt::format(
+      "the samples show the requirement, the model does not: the {} rung and its steps may be off by {}, and if every "
+      "sample were larger by what may be missed of it, the share would be {}",
+      rung, readable_error(shown.model_error), readable_near_all(shown.within_error->value));
+}
+
+Json model_error_json(const std::string& rung, double rung_error, const StudySteps& steps) {
+  return {{"discretisation", {{"relative", number_json(steps.relative)}, {"why", steps.why}}},
+          {"rung",
+           {{"relative", rung_error},
+            {"why",
+             "unbiased for the " + rung + " rung; its own estimate of what that leaves out, mean over the samples"}}}};
+}
 
 RungChoice named_rung(const std::string& rung) { return {rung, "the study names its rungs", 0.0}; }
 

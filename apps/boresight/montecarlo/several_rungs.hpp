@@ -2,6 +2,9 @@
 // its table and its report, and returns the exit status.
 #pragma once
 
+#include <optional>
+
+#include "boresight_analyses/statistics/interval.hpp"
 #include "command_line/montecarlo_study.hpp"
 #include "report/document.hpp"
 #include "results/scatter_parts.hpp"
@@ -19,7 +22,23 @@ struct SeveralRungs {
 int run_fidelities(const SeveralRungs& study);
 int run_tail(const SeveralRungs& study);
 
-// What the two share.
+// What the two share. A requirement as a study answers it: by the share within its limit, and by the share if every sample were larger by
+// what the rung and its steps may be off by.
+struct RequirementShown {
+  ReportedInterval share;  // of one-sided bounds
+  std::optional<ReportedInterval> within_error = {};
+  double model_error = 0.0;  // relative
+  bool met_by_samples = false, met = false;
+};
+// excess: one minus the shares.
+RequirementShown requirement_shown(const Requirement& requirement, const IndependentInterval& excess,
+                                   const IndependentInterval* excess_within_error, double model_error);
+Json requirement_json(const Requirement& requirement, const RequirementShown& shown);
+// "the requirement is met", or what is missing.
+std::string requirement_words(const RequirementShown& shown, const std::string& rung);
+// What the rung and its steps may be off by, as summaries state it.
+Json model_error_json(const std::string& rung, double rung_error, const StudySteps& steps);
+
 RungChoice named_rung(const std::string& rung);
 // What a reader should know of how motions start, and of what the budget decides.
 std::vector<std::string> several_rungs_warnings(const SeveralRungs& study);

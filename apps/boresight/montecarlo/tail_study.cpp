@@ -99,12 +99,11 @@ int run_tail(const SeveralRungs& s) {
         "{} points failed in all, {} of them of the estimate, where they count as beyond the limit; the first "
         "that did: {}",
         failures.count, estimate.failed, failures.reason));
-  const ReportedInterval below{1.0 - p.value,          1.0 - p.high, 1.0 - p.low, requirement.confidence,
-                               requirement.confidence, false,        p.basis,     "independent"};
+  const RequirementShown shown =
+      requirement_shown(requirement, p, found.within_error ? &found.within_error->bounds : nullptr, found.model_error);
   const double most = 1.0 - requirement.probability;  // that may exceed the limit
-  const bool met = found.met(requirement);
   const double enough = found.points_to_show(requirement);
-  if (!met && enough > double(estimate.exact_evaluations))
+  if (!shown.met_by_samples && enough > double(estimate.exact_evaluations))
     warnings.push_back(
         fmt::format("{} points on the {} rung bound the excess by {:.2g} wherever it lies; to show at most {:.2g} "
                     "takes about {:.2g} "
@@ -115,11 +114,8 @@ int run_tail(const SeveralRungs& s) {
   json["samples"] = estimate.exact_evaluations;
   json["failed"] = estimate.failed;
   if (failures.count > 0) json["first_failure"] = {{"reason", failures.reason}};
-  json["requirement"] = {{"limit", requirement.limit},
-                         {"asked_probability", requirement.probability},
-                         {"confidence", requirement.confidence},
-                         {"met", met},
-                         {"probability", interval_json(below)}};
+  json["error"] = model_error_json(asked.exact, found.rung_error, found.steps);
+  json["requirement"] = requirement_json(requirement, shown);
   ReportedInterval excess = reported(p);
   excess.confidence = requirement.confidence;
   json["tail"] = {{"exceedance", interval_json(excess)},
@@ -173,9 +169,8 @@ int run_tail(const SeveralRungs& s) {
   if (!more.empty()) warnings.push_back(more);
   report::Document document = several_rungs_report(s, asked.exact, found.leaves_out, warnings);
   document.subtitle = "How rarely the " + s.question.study.index.title() + " exceeds its limit";
-  document.verdict =
-      report::Verdict{met ? report::Standing::good : report::Standing::bad,
-                      sentence + (met ? "; the requirement is met" : "; the requirement is not shown to be met")};
+  document.verdict = report::Verdict{shown.met ? report::Standing::good : report::Standing::bad,
+                                     sentence + "; " + requirement_words(shown, asked.exact)};
   document.facts = {{"exceed the limit", fmt::format("{:.3g}", p.value), "",
                      fmt::format("at most {:.3g} with {:g} % confidence", p.high, 100.0 * requirement.confidence)},
                     {"standard error", fmt::format("{:.2g}", estimate.standard_error), "",
@@ -206,11 +201,11 @@ int run_tail(const SeveralRungs& s) {
   s.own.out().publish();
   for (const std::string& store : stores_of_tail(asked)) s.own.run().forget(store);
   if (!s.command.quiet) {
-    tell("  {}\n", sentence);
+    tell("  {}; {}\n", sentence, requirement_words(shown, asked.exact));
     tell_warnings(warnings, s.command, *s.question.mechanism);
     tell("  report: {}\n", (s.own.out().path() / "report.html").string());
   }
-  return met ? kDone : kAnswerIsNo;
+  return shown.met ? kDone : kAnswerIsNo;
 }
 
 }  // namespace boresight::app

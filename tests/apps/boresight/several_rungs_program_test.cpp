@@ -110,21 +110,46 @@ TEST_F(SeveralRungsProgram, TailSaysHowRareTheExcessIsAndAnswersByIt) {
   const std::string limit = json("limit/summary.json")["index"]["position_error"]["max"].dump();
   const auto beyond = [](double x) { return 0.5 * std::erfc(x / std::numbers::sqrt2); };
   const double truth = (beyond(2.0) - beyond(5.0)) / (1.0 - 2.0 * beyond(5.0));
-  for (const auto& [probability, status] : {std::pair{"0.99", 1}, std::pair{"0.95", 0}}) {
+  for (const auto& [probability, by_samples] : {std::pair{"0.99", false}, std::pair{"0.95", true}}) {
     std::filesystem::remove_all(folder_ / "out");
     study("[montecarlo]\nrequirement = { limit = \"" + limit + " m\", probability = " + probability +
           ", confidence = 0.9 }\ntail = { cheap = \"perturbation\", exact = \"quasistatic\", budget = \"0.4 s\", pilot "
           "= 20 }\n");
     const Ended ended = ask("montecarlo");
-    EXPECT_EQ(ended.status, status) << ended.out << ended.err;
     const auto summary = json("out/summary.json");
-    EXPECT_EQ(summary["requirement"]["met"].get<bool>(), status == 0);
+    EXPECT_EQ(summary["requirement"]["met_by_samples"].get<bool>(), by_samples) << ended.out << ended.err;
+    EXPECT_EQ(ended.status, summary["requirement"]["met"].get<bool>() ? 0 : 1);
     const auto& exceedance = summary["tail"]["exceedance"];
     EXPECT_NEAR(exceedance["value"].get<double>(), truth, 3.0 * summary["tail"]["standard_error"].get<double>());
     EXPECT_LT(summary["tail"]["standard_error"].get<double>(), 0.3 * truth);
     EXPECT_LE(exceedance["low"].get<double>(), truth);
     EXPECT_GE(exceedance["high"].get<double>(), truth);
     for (const char* file : {"levels.csv", "report.html"}) EXPECT_THAT(files("out"), Contains(file));
+  }
+}
+
+// In the first 20 ms the paper's mechanism rings: journals at rest leave out as much as the error itself. Plain samples of that rung
+// do not show a limit a little above its answers, and no more do samples that are spent more cleverly.
+TEST_F(SeveralRungsProgram, ARequirementIsMetOnlyWithWhatTheFirstRungLeavesOut) {
+  const std::string asked = "requirement = { limit = \"0.25 mm\", probability = 0.9, confidence = 0.9 }\n";
+  for (const auto& [table, words] :
+       {std::pair{"fidelities = { models = [\"quasistatic\", \"envelope\"], budget = \"0.5 s\", pilot = 10 }\n",
+                  "the samples show the requirement, the model does not"},
+        std::pair{"tail = { cheap = \"envelope\", exact = \"quasistatic\", budget = \"0.4 s\", pilot = 20 }\n",
+                  "the samples show the requirement, the model does not"},
+        std::pair{"samples = 100\n", "The samples show it, the model does not"}}) {
+    std::filesystem::remove_all(folder_ / "out");
+    study("[montecarlo]\n" + asked + table);
+    const bool plain = std::string(table).starts_with("samples");
+    const Ended ended =
+        ask("montecarlo", plain ? std::vector<std::string>{"--rung", "quasistatic"} : std::vector<std::string>{});
+    EXPECT_EQ(ended.status, 1) << table << ended.out << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr(words));
+    const auto summary = json("out/summary.json");
+    EXPECT_TRUE(summary["requirement"]["met_by_samples"].get<bool>()) << table;
+    EXPECT_FALSE(summary["requirement"]["met"].get<bool>()) << table;
+    EXPECT_GT(summary["error"]["rung"]["relative"].get<double>(), 0.3) << table;
+    EXPECT_LT(summary["requirement"]["within_model_error"]["value"].get<double>(), 0.9) << table;
   }
 }
 
