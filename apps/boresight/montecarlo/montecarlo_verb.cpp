@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <ostream>
 
@@ -78,9 +79,12 @@ class MonteCarloVerb : public Verb {
   std::string summary() const override { return "the index's distribution, with confidence intervals"; }
   std::string example() const override { return "boresight montecarlo antenna/montecarlo.toml"; }
   std::string next(const Command&, bool answer_is_no) const override {
-    return answer_is_no
-               ? "boresight help sensitivity: which parameter to tighten; boresight help allocate: which fits would do"
-               : "boresight export " + shell_word(last_summary().parent_path().string()) + ": every sample as CSV";
+    const std::filesystem::path folder = last_summary().parent_path();
+    // On several rungs each has a store of its own, which export does not read.
+    const bool has_samples = std::filesystem::exists(folder / "samples.db");
+    if (answer_is_no || !has_samples)
+      return "boresight help sensitivity: which parameter to tighten; boresight help allocate: which fits would do";
+    return "boresight export " + shell_word(folder.string()) + ": every sample as CSV";
   }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);

@@ -13,6 +13,7 @@ namespace several_rungs_program_test {
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 class SeveralRungsProgram : public Program {
  protected:
@@ -87,6 +88,14 @@ TEST_F(SeveralRungsProgram, SayInTheirFilesWhereMuchMoreThanTheBudgetWasSpent) {
   for (const std::string& shown : {ended.out, text("out/report.html")})
     EXPECT_EQ(shown.find("times the budget") != std::string::npos, said);
   EXPECT_EQ(json("out/summary.json")["warnings"].dump().find("times the budget"), std::string::npos);
+}
+
+TEST_F(SeveralRungsProgram, TheNextCommandIsOneThatTheResultsServe) {
+  study("[montecarlo]\nfidelities = { models = [\"quasistatic\", \"envelope\"], budget = \"0.3 s\", pilot = 10 }\n");
+  const Ended ended = ask("montecarlo");
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("next: "), Not(HasSubstr("boresight export"))));
+  EXPECT_EQ(call({"export", "out"}).status, 2);
 }
 
 TEST_F(SeveralRungsProgram, FidelitiesSayThatTheirBudgetDecidesHowManySamplesThereAre) {
