@@ -339,15 +339,32 @@ class Matching {
     c.interval = plan_.objective.interval(outcomes, options_.confidence);
     c.design = result_.design;
     c.objective = c.value;
+    c.failed = static_cast<std::size_t>(std::count_if(
+        outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.status != Outcome::Status::done; }));
     const double off = std::abs(c.value - result_.objective);
     bool keeps = true;
-    for (const MatchingConstraint& k : plan_.constraints) keeps = keeps && excess(k, outcomes) <= options_.accuracy;
+    std::string broken;
+    for (const MatchingConstraint& k : plan_.constraints) {
+      const double beyond = excess(k, outcomes);
+      keeps = keeps && beyond <= options_.accuracy;
+      if (!(beyond > options_.accuracy) || !std::isfinite(k.measure.of(outcomes))) continue;
+      char text[80];
+      std::snprintf(text, sizeof text, "%s%s is %.3g %% beyond its limit there", broken.empty() ? ", and " : ", ",
+                    k.measure.key().c_str(), 100.0 * beyond);
+      broken += text;
+    }
     c.agrees = std::isfinite(off) && keeps == result_.feasible &&
                plan_.objective.may_be_alike(evaluator_->at(result_.design), outcomes, options_.confidence,
                                             options_.accuracy * std::abs(c.value));
     c.sentence = rung + " with seed " + std::to_string(c.seed) + " gives " + shown(c.value, result_.objective) +
                  " where the search had " + shown(result_.objective, result_.objective) + ": " +
                  (c.agrees ? "within what samples and accuracy leave open" : "they disagree");
+    if (!c.agrees && result_.feasible) c.sentence += broken;
+    if (!std::isfinite(c.value))
+      c.sentence = rung + " with seed " + std::to_string(c.seed) + " has no value to hold against the search's " +
+                   shown(result_.objective, result_.objective) + ", as " + std::to_string(c.failed) + " of its " +
+                   std::to_string(c.samples) + (c.samples == 1 ? " run failed" : " runs failed") +
+                   ": the optimum is not confirmed";
     if (!c.agrees && std::isfinite(off)) {
       // On from there, on the better rung.
       DesignEvaluator* before = evaluator_;

@@ -6,6 +6,7 @@
 // their end.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -47,8 +48,8 @@ struct FrontPoint {
 struct MatchingConfirmation {
   std::string rung;
   std::uint64_t seed = 0;
-  std::size_t samples = 0;
-  double value = 0.0;
+  std::size_t samples = 0, failed = 0;
+  double value = 0.0;  // NaN where any of them failed: the optimum is then not confirmed
   ReportedInterval interval{};
   bool agrees = false;
   bool went_on = false;        // a descent on this rung moved the optimum
@@ -75,6 +76,9 @@ struct MatchingResult {
   MatchingMap map;
   std::vector<FrontPoint> front;                   // ascending index
   std::vector<MatchingConfirmation> confirmation;  // none or one
+
+  // Whether a confirmation that was asked for has a value: the optimum is its own, or held against it.
+  bool confirmed() const { return confirmation.empty() || std::isfinite(confirmation.front().value); }
 };
 
 struct MatchingOptions {

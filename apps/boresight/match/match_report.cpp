@@ -251,7 +251,7 @@ report::Document match_report(const MatchStudy& s) {
   report::Document document{.title = s.mechanism.name(),
                             .subtitle = "Matching: least " + s.plan.objective.title(s.study.index),
                             .verb = "match"};
-  const bool good = s.result.feasible && s.result.converged && !s.result.interrupted;
+  const bool good = s.result.feasible && s.result.converged && s.result.confirmed() && !s.result.interrupted;
   document.verdict = report::Verdict{
       good ? report::Standing::good : report::Standing::bad,
       (s.result.interrupted && !s.result.design.empty() ? "Interrupted; the best so far. " : "") + match_sentence(s)};

@@ -219,7 +219,7 @@ class MatchVerb : public Verb {
     if (result.interrupted) return kInterrupted;
     if (result.design.empty() || evaluator.failures().count == evaluator.runs())
       return failed(command, "no design could be evaluated" + first_failure_text(evaluator.failures(), "run"));
-    return result.feasible && result.converged ? kDone : kAnswerIsNo;
+    return result.feasible && result.converged && result.confirmed() ? kDone : kAnswerIsNo;
   }
 
  private:
@@ -289,6 +289,7 @@ class MatchVerb : public Verb {
       json["confirmation"] = {{"rung", c.rung},
                               {"seed", c.seed},
                               {"samples", c.samples},
+                              {"failed", c.failed},
                               {"value", number_json(c.value)},
                               {"low", number_json(c.interval.low)},
                               {"high", number_json(c.interval.high)},

@@ -321,6 +321,54 @@ TEST(Matching, QuantilesAndWorstsOfFewerSamplesDoNotContradictThoseOfMore) {
   }
 }
 
+// Fails where the scatter is in its upper tenth.
+class ValleyThatFails final : public SampleModel {
+ public:
+  std::string rung() const override { return "valley"; }
+  double step() const override { return 0.0; }
+  std::string leaves_out() const override { return ""; }
+  std::size_t batch() const override { return 1; }
+  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                const std::atomic<bool>& stop) const override {
+    Valley().evaluate(samples, outcomes, stop);
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      if (samples[k].values[1] > 0.9) outcomes[k] = {.status = Outcome::Status::failed, .message = "too much"};
+  }
+};
+
+TEST(Matching, AConfirmationWhoseRunsFailConfirmsNothingAndSaysSo) {
+  const Valley model;
+  const ValleyThatFails fails;
+  const MatchingPlan p = plan(Over::mean);
+  DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 40, .seed = 1});
+  DesignEvaluator confirm(fails, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
+  const MatchingResult r = run_matching(p, evaluator, &confirm, "exact", {});
+  ASSERT_EQ(r.confirmation.size(), 1U);
+  EXPECT_TRUE(r.feasible && r.converged);
+  EXPECT_FALSE(r.confirmed());
+  EXPECT_GT(r.confirmation[0].failed, 0U);
+  EXPECT_THAT(r.confirmation[0].sentence,
+              testing::HasSubstr(std::to_string(r.confirmation[0].failed) + " of its 40 runs failed"));
+  EXPECT_THAT(r.confirmation[0].sentence, testing::HasSubstr("the optimum is not confirmed"));
+}
+
+TEST(Matching, AConfirmationThatBreaksALimitNamesIt) {
+  const Valley model(0.0, 0.0), wide(0.0, 4.0);
+  MatchingPlan p = plan(Over::mean);
+  p.map = p.front = 0;
+  MatchingConstraint limit{.measure = p.objective, .at_most = 1.5};
+  limit.measure.over = Over::worst;
+  p.constraints = {limit};
+  DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 40, .seed = 1});
+  DesignEvaluator confirm(wide, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
+  const MatchingResult r = run_matching(p, evaluator, &confirm, "exact", {});
+  ASSERT_EQ(r.confirmation.size(), 1U);
+  EXPECT_FALSE(r.confirmation[0].agrees);
+  EXPECT_THAT(r.confirmation[0].sentence, testing::HasSubstr("index is "));
+  EXPECT_THAT(r.confirmation[0].sentence, testing::HasSubstr("beyond its limit there"));
+  EXPECT_FALSE(r.feasible);  // none keeps it there
+}
+
 TEST(Matching, GoesOnOnTheRungThatDisagrees) {
   const Valley cheap, exact(1.5);
   const MatchingPlan p = plan(Over::mean);
