@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/allocation/allocating.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
 
@@ -261,8 +262,9 @@ AllocationConfirmation Allocating::confirmed(const Allocation& a, const Confirmi
   const std::uint64_t seed = confirmation_seed(plan_.seed, result_.confirmations.size());
   const UnitSamples unit = unit_samples(plan_.entries.size() + plan_.scattered(), plan_.confirm, seed);
   const auto gaps = gaps_of(a, unit, plan_.confirm);
-  AllocationConfirmation c =
-      confirmation_of(values_of(confirm(gaps, others_of(unit, plan_.confirm))), plan_.requirement, confidence);
+  const std::vector<Outcome> outcomes = confirm(gaps, others_of(unit, plan_.confirm));
+  AllocationConfirmation c = confirmation_of(values_of(outcomes), plan_.requirement, confidence);
+  c.model_error = model_error_of(outcomes);
   c.rung = rung;
   c.seed = seed;
   c.factor = result_.factor;
@@ -280,6 +282,10 @@ AllocationConfirmation Allocating::confirmed(const Allocation& a, const Confirmi
                 c.met ? (c.agrees ? "the requirement is met" : "the requirement is met with room to spare")
                       : "the requirement is not shown to be met");
   c.sentence = text;
+  constexpr double kWorthSaying = 0.005;
+  if (c.model_error > kWorthSaying)
+    c.sentence += " (each sample counted as larger by what the rung may leave out, on average by " +
+                  relative_text(c.model_error) + ")";
   return c;
 }
 

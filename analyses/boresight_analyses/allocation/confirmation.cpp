@@ -20,8 +20,19 @@ std::uint64_t confirmation_seed(std::uint64_t seed, std::size_t number) {
 std::vector<double> values_of(const std::vector<Outcome>& outcomes) {
   std::vector<double> values;
   for (const Outcome& o : outcomes)
-    values.push_back(o.status == Outcome::Status::done ? o.value : std::numeric_limits<double>::infinity());
+    values.push_back(o.status == Outcome::Status::done ? o.value + o.model_error * std::abs(o.value)
+                                                       : std::numeric_limits<double>::infinity());
   return values;
+}
+
+double model_error_of(const std::vector<Outcome>& outcomes) {
+  double sum = 0.0, done = 0.0;
+  for (const Outcome& o : outcomes) {
+    if (o.status != Outcome::Status::done) continue;
+    sum += o.model_error;
+    done += 1.0;
+  }
+  return done > 0.0 ? sum / done : 0.0;
 }
 
 double shown_limit(std::vector<double> values, double probability, double confidence) {

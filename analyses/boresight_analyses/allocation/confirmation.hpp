@@ -31,6 +31,8 @@ struct AllocationConfirmation {
   double confidence = 0.0;  // of this one
   double factor = 1.0;      // index of the rung over that of the linear deviation, when this set was searched for
   double price = 0.0;
+  double model_error =
+      0.0;  // what the rung thinks it leaves out, relative: mean over the samples, each counted as larger by its own
   double reached = 0.0;                        // the least limit that these samples show
   double share_within = 0.0, share_low = 0.0;  // and the lower bound at `confidence`
   bool met = false, agrees = false;
@@ -45,8 +47,11 @@ using ConfirmingModel = std::function<std::vector<Outcome>(const std::vector<std
 // The seed of confirmation `number` (from 0) of a search with this seed.
 std::uint64_t confirmation_seed(std::uint64_t seed, std::size_t number);
 
-// The values of these outcomes; a failed one is above everything.
+// The values of these outcomes, each as large as what its rung leaves out may make it; a failed one is above everything.
 std::vector<double> values_of(const std::vector<Outcome>& outcomes);
+
+// The mean of what their rung leaves out, relative.
+double model_error_of(const std::vector<Outcome>& outcomes);
 
 // The least limit that these values show to be kept: the largest of them but the allowed ones.
 double shown_limit(std::vector<double> values, double probability, double confidence);

@@ -357,6 +357,7 @@ class AllocateVerb : public Verb {
                                        {"confidence", c.confidence},
                                        {"factor", c.factor},
                                        {"price", c.price},
+                                       {"model_error", c.model_error},
                                        {"share_within", c.share_within},
                                        {"share_low", c.share_low},
                                        {"least_limit_shown", number_json(c.reached)},

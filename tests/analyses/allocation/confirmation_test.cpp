@@ -177,6 +177,28 @@ TEST(Confirmation, SaysInWordsWhatItsNumbersAre) {
   EXPECT_LT(confidence, 1.0);
 }
 
+// Samples that keep the limit by less than their rung may be off do not show it.
+TEST(Confirmation, CountsEachSampleAsLargerByWhatItsRungMayLeaveOut) {
+  AllocationPlan plan = plan_with(11, 1);
+  plan.requirement.limit = 3.0 * kMilli;
+  const auto result_beside = [&](double model_error) {
+    return run_allocation(plan, sum_of_gaps(), 0.0,
+                          [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+                            Outcome outcome = near_limit(plan, -1.0);
+                            outcome.model_error = model_error;
+                            return std::vector<Outcome>(gaps.size(), outcome);
+                          },
+                          "synthetic", {});
+  };
+  EXPECT_TRUE(result_beside(0.01).feasible);
+  const AllocationResult beyond = result_beside(0.03);
+  EXPECT_FALSE(beyond.feasible);
+  ASSERT_FALSE(beyond.confirmations.empty());
+  EXPECT_NEAR(beyond.confirmations.front().model_error, 0.03, 1e-12);
+  EXPECT_THAT(beyond.confirmations.front().sentence,
+              testing::HasSubstr("counted as larger by what the rung may leave out, on average by 3 %"));
+}
+
 // e = 2 - c1 + c2 (mm): the wider first gap points better, and the tightest set keeps no limit below 2 mm.
 TEST(Allocation, FindsTheWiderGapThatWorksAgainstAnother) {
   AllocationPlan plan = plan_with(3, 6);
