@@ -31,8 +31,16 @@ Json number(const Key& key, const char* type) {
 Json list(const Json& items, const std::vector<std::size_t>& counts) {
   Json schema = {{"type", "array"}, {"items", items}};
   if (counts.empty()) return schema;
-  schema["minItems"] = *std::min_element(counts.begin(), counts.end());
-  schema["maxItems"] = *std::max_element(counts.begin(), counts.end());
+  const std::size_t least = *std::min_element(counts.begin(), counts.end()),
+                    most = *std::max_element(counts.begin(), counts.end());
+  schema["minItems"] = least;
+  schema["maxItems"] = most;
+  // A list of three or six has no four.
+  Json between = Json::array();
+  for (std::size_t n = least + 1; n < most; ++n)
+    if (std::find(counts.begin(), counts.end(), n) == counts.end())
+      between.push_back({{"minItems", n}, {"maxItems", n}});
+  if (!between.empty()) schema["not"] = {{"anyOf", between}};
   return schema;
 }
 

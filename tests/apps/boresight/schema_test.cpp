@@ -100,6 +100,7 @@ TEST(Schemas, RefuseDamagedMechanisms) {
                       {"coefficient = 0.05", "coeficient = 0.05"},
                       {"poisson = [0.3, 0.33]", "poisson = [0.3]"},  // too few
                       {"axis = [0, 1, 0]", "axis = [0, 1]"},
+                      {"inertia = [\"0.08 kg m^2\", ", "inertia = [\"0.08 kg m^2\", \"0.1 kg m^2\", "},  // three or six
                       {"connects = [\"ground\", \"crank\"]", "connects = [\"ground\"]"},
                       {"driven = true", "driven = \"yes\""},
                       {"format = 1", "format = 2"},
