@@ -61,7 +61,7 @@ double number_of(const py::handle& value, const std::string& si_unit) {
 }
 
 // A float; of a path whose numbers differ a tuple of each, which may be set again.
-py::object value_at(const NamedParameters& p, const std::string& path) {
+py::object named_value(const NamedParameters& p, const std::string& path) {
   const std::vector<double> values = ParameterPath(p.mechanism->description(), path).values(p.values);
   if (values.size() == 1) return py::float_(values.front());
   return py::tuple(py::cast(values));
@@ -72,7 +72,7 @@ bool is_list(const py::object& value) {
          (py::isinstance<py::array>(value) && value.cast<py::array>().ndim() > 0);
 }
 
-void set_value(NamedParameters& p, const std::string& path, const py::object& value) {
+void set_named_value(NamedParameters& p, const std::string& path, const py::object& value) {
   const ParameterPath place(p.mechanism->description(), path);
   std::vector<double> values;
   if (!is_list(value))
@@ -171,15 +171,15 @@ void bind_mechanism(py::module_& module) {
       "A path of several numbers that differ, such as the moduli of two materials, has a tuple of them, and takes one "
       "value\n"
       "for all or as many as there are.\n")
-      .def("__getitem__", &value_at, py::arg("path"))
-      .def("__setitem__", &set_value, py::arg("path"), py::arg("value"))
+      .def("__getitem__", &named_value, py::arg("path"))
+      .def("__setitem__", &set_named_value, py::arg("path"), py::arg("value"))
       .def("copy", [](const NamedParameters& p) { return p; })
       .def(
           "as_dict",
           [](const NamedParameters& p) {
             py::dict all;
             for (const std::string& path : parameter_paths(p.mechanism->description()))
-              all[py::str(path)] = value_at(p, path);
+              all[py::str(path)] = named_value(p, path);
             return all;
           },
           "All of them: {path: value in SI}.")
