@@ -73,7 +73,7 @@ py::dict call(const std::vector<std::string>& words, const py::object& progress)
 }
 
 // "--out", "--quiet", ...; of what is no verb none.
-std::vector<std::string> options_of(const std::string& verb) {
+std::vector<std::string> options_that_verb_has(const std::string& verb) {
   const ProgramOptions program;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < program.verbs.size(); ++i) {
@@ -89,7 +89,7 @@ std::vector<std::string> options_of(const std::string& verb) {
 void bind_verbs(py::module_& module) {
   module.def("call_verb", &call, py::arg("words"), py::arg("progress") = py::none(),
              "Calls a verb with the words of a command line; {\"status\": 0 or 1, \"folder\": of its results}.");
-  module.def("options_of_verb", &options_of, py::arg("verb"),
+  module.def("options_of_verb", &options_that_verb_has, py::arg("verb"),
              "The options that a verb has: \"--out\", ...; of what is no verb none.");
 }
 
