@@ -96,7 +96,14 @@ ReportedInterval MeasureChoice::interval(std::span<const Outcome> outcomes, doub
     else
       ++failed;
   }
-  if (values.size() >= 2 && over == Over::mean) return reported(IndependentSamples(values, failed).mean(confidence));
+  if (values.size() >= 2 && over == Over::mean) {
+    ReportedInterval mean = reported(IndependentSamples(values, failed).mean(confidence));
+    if (measure == Measure::index) return mean;
+    // Shares, counts and sizes are not below zero, and no share is above one: few samples' own scatter does not know that.
+    mean.low = std::max(mean.low, 0.0);
+    if (measure == Measure::free_flight_share) mean.high = std::min(mean.high, 1.0);
+    return mean;
+  }
   if (!values.empty() && over == Over::quantile)
     return reported(IndependentSamples(values, failed).quantile(probability, confidence));
   const double value = of(outcomes);

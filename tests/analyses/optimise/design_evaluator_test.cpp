@@ -104,5 +104,18 @@ TEST(MeasureChoice, SaysMeanQuantileAndWorstOfTheSamples) {
   EXPECT_TRUE(std::isnan(MeasureChoice{.over = Over::mean}.of(outcomes)));
 }
 
+TEST(MeasureChoice, TheMeanOfAShareLiesBetweenNothingAndAll) {
+  std::vector<Outcome> outcomes(2);
+  const auto interval_of = [&](double first, double second) {
+    for (Outcome& o : outcomes) o.status = Outcome::Status::done;
+    outcomes[0].motion.free_flight_share = first;
+    outcomes[1].motion.free_flight_share = second;
+    return MeasureChoice{.measure = Measure::free_flight_share, .over = Over::mean}.interval(outcomes, 0.95);
+  };
+  EXPECT_EQ(interval_of(0.04, 0.06).low, 0.0);
+  EXPECT_GT(interval_of(0.04, 0.06).high, 0.06);
+  EXPECT_EQ(interval_of(0.94, 0.96).high, 1.0);
+}
+
 }  // namespace design_evaluator_test
 }  // namespace boresight
