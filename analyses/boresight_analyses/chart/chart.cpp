@@ -124,7 +124,8 @@ const ChartPoint* ChartResult::cheapest_within(double accuracy) const {
   const ChartPoint* best = nullptr;
   if (reference.uncertainty > accuracy) return nullptr;  // then it is luck which point comes near
   for (const ChartPoint& p : points)
-    if (p.measured.refusal.empty() && p.error <= accuracy &&
+    // By as much as the reference is off, a way may be so too.
+    if (p.measured.refusal.empty() && p.error + reference.uncertainty <= accuracy &&
         (!best || p.measured.cpu_seconds < best->measured.cpu_seconds))
       best = &p;
   return best;

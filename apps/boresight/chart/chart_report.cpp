@@ -203,6 +203,11 @@ std::string left_out_sentence(const ChartResult& result, const std::string& fami
   return (begun ? "no time was left for other steps of " : "no time was left for ") + family;
 }
 
+std::string off_text(const ChartResult& result, const ChartPoint& point) {
+  const double known = result.reference.uncertainty;
+  return point.error < known ? "at most " + readable_error(point.error + known) : readable_error(point.error);
+}
+
 report::Document chart_report(const Command& command, const Mechanism& mechanism, const ChartResult& result,
                               std::optional<double> accuracy) {
   report::Document document{
@@ -226,7 +231,7 @@ report::Document chart_report(const Command& command, const Mechanism& mechanism
                         result.reference.uncertainty > wanted
                             ? fmt::format("The reference is known to {} only: what comes within {} cannot be told.",
                                           readable_error(result.reference.uncertainty), readable_share(wanted))
-                            : fmt::format("No way comes within {}.", readable_share(wanted))};
+                            : fmt::format("No way is sure to come within {}.", readable_share(wanted))};
   for (const std::string& name : result.flight.left_out)
     document.warnings.push_back("no time was left for the flight before the first impact of " + name);
   if (result.reference.refinements.empty())
@@ -238,7 +243,7 @@ report::Document chart_report(const Command& command, const Mechanism& mechanism
   if (papers)
     document.facts.push_back({.label = "The setting of Sun, Song and Wang",
                               .value = readable(papers->measured.cpu_seconds, "s"),
-                              .note = "off by " + readable_error(papers->error)});
+                              .note = "off by " + off_text(result, *papers)});
   const auto failed = std::count_if(result.points.begin(), result.points.end(),
                                     [](const ChartPoint& p) { return !p.measured.refusal.empty(); });
   document.facts.push_back(

@@ -10,6 +10,9 @@
 
 namespace boresight::app {
 
+// How far off a way is, as far as the reference tells: "9.62 %"; "at most 0.0001 %" where it is nearer to it than that is known.
+std::string off_text(const ChartResult& result, const ChartPoint& point);
+
 // accuracy: asked for by the study or the command line.
 report::Document chart_report(const Command& command, const Mechanism& mechanism, const ChartResult& result,
                               std::optional<double> accuracy);

@@ -123,12 +123,12 @@ void print(const Command& command, const Mechanism& mechanism, const ChartResult
   tell("  Pareto front:\n");
   for (std::size_t k : result.front) {
     const ChartPoint& p = result.points[k];
-    tell("    {:>10}  off by {:<10} {}, {}\n", readable(p.measured.cpu_seconds, "s"), readable_error(p.error), p.family,
+    tell("    {:>10}  off by {:<10} {}, {}\n", readable(p.measured.cpu_seconds, "s"), off_text(result, p), p.family,
          fineness(p.setup));
   }
   if (const ChartPoint* papers = result.papers())
     tell("  the setting of Sun, Song and Wang: {}, off by {}\n", readable(papers->measured.cpu_seconds, "s"),
-         readable_error(papers->error));
+         off_text(result, *papers));
   if (accuracy) {
     const ChartPoint* best = result.cheapest_within(*accuracy);
     tell("  cheapest within {}: {}\n", readable_share(*accuracy),

@@ -33,6 +33,21 @@ TEST(ParetoFront, EndsWhereTheReferenceTellsNothingApart) {
   EXPECT_EQ(pareto_front(points, 0.005), (std::vector<std::size_t>{0, 1}));
 }
 
+TEST(ParetoFront, AWayIsWithinAnAccuracyWhereTheReferenceLeavesNoDoubt) {
+  ChartResult result;
+  result.reference.uncertainty = 0.004;
+  ChartPoint near, nearer;
+  near.error = 0.008;
+  near.measured.cpu_seconds = 1.0;
+  nearer.error = 0.005;
+  nearer.measured.cpu_seconds = 2.0;
+  result.points = {near, nearer};
+  ASSERT_NE(result.cheapest_within(0.01), nullptr);
+  EXPECT_EQ(result.cheapest_within(0.01)->error, 0.005);
+  EXPECT_EQ(result.cheapest_within(0.013)->error, 0.008);
+  EXPECT_EQ(result.cheapest_within(0.008), nullptr);
+}
+
 TEST(ChartWays, CoverEveryRungFormulationAndIntegratorFromCoarseToFine) {
   const std::vector<SetupFamily> families = chart_setups(1e-4);
   std::set<std::string> rungs, names, integrators;
