@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "boresight_analyses/fidelities/fidelity_study.hpp"
+#include "boresight_analyses/statistics/binomial.hpp"
 #include "montecarlo/several_rungs.hpp"
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
@@ -108,6 +109,15 @@ int run_fidelities(const SeveralRungs& s) {
     warnings.push_back("the cheaper rungs do not pay: this is plain Monte Carlo on " + top +
                        ", the pilot was spent in vain");
   std::optional<RequirementShown> requirement;
+  // The plan serves the mean: where the cheap rungs follow closely it leaves the first one next to nothing, by which a share is shown.
+  if (o.excess && !(o.excess->high <= 1.0 - plan.requirement->probability)) {
+    const std::int64_t fewest = wilks_one_sided(plan.requirement->probability, plan.requirement->confidence);
+    if (o.plan.samples[0] < fewest)
+      warnings.push_back(fmt::format(
+          "the plan that serves the mean best has {} on {}, too few to show the requirement, which takes {} "
+          "or more whatever they give: plain samples, without fidelities, judge it",
+          how_many(static_cast<std::size_t>(o.plan.samples[0]), "sample"), top, fewest));
+  }
   Json json = several_rungs_summary(s, top, warnings, o.earlier);
   json["samples"] = o.plan.samples[0];
   json["failed"] = o.mean.failed;

@@ -162,6 +162,16 @@ TEST_F(SeveralRungsProgram, ARequirementIsMetOnlyWithWhatTheFirstRungLeavesOut) 
   }
 }
 
+TEST_F(SeveralRungsProgram, FidelitiesSayThatTheirPlanLeavesTooFewSamplesToShowARequirement) {
+  study(
+      "[montecarlo]\nrequirement = { limit = \"1 mm\", probability = 0.9999, confidence = 0.9 }\n"
+      "fidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"0.5 s\", pilot = 10 }\n");
+  const Ended ended = ask("montecarlo");
+  EXPECT_EQ(ended.status, 1) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("too few to show the requirement, which takes 23025"),
+                               HasSubstr("without fidelities, judge it")));
+}
+
 // The budget is divided by what samples are counted at: once more, and resumed, the same plan and the same numbers.
 TEST_F(SeveralRungsProgram, FidelitiesAndTailGiveTheSameNumbersAgain) {
   study(
