@@ -80,11 +80,13 @@ LinearDeviation linear_deviation(const std::shared_ptr<const Mechanism>& mechani
   return all.of_only(kept);
 }
 
-// What the entries are: "joints", "errors", "joints and errors".
+// How many entries there are, and of what: "1 joint", "2 errors", "3 joints and errors".
 std::string entries_text(const AllocationPlan& plan) {
-  const auto errors = std::count_if(plan.entries.begin(), plan.entries.end(), [](const auto& e) { return e.is_error; });
-  if (errors == 0) return "joints";
-  return errors == static_cast<std::ptrdiff_t>(plan.entries.size()) ? "errors" : "joints and errors";
+  const std::size_t count = plan.entries.size();
+  const auto errors = static_cast<std::size_t>(
+      std::count_if(plan.entries.begin(), plan.entries.end(), [](const auto& e) { return e.is_error; }));
+  if (errors == 0 || errors == count) return how_many(count, errors == 0 ? "joint" : "error");
+  return fmt::format("{} joints and errors", count);
 }
 
 // The confirming rung's outcomes, each sample stored as it lands and never computed twice.
@@ -210,7 +212,7 @@ class AllocateVerb : public Verb {
     Confirming confirming(model, plan, *store, command.jobs);
 
     if (!command.quiet) {
-      tell("{}: {} {}, {}\n", mechanism->name(), plan.entries.size(), entries_text(plan),
+      tell("{}: {}, {}\n", mechanism->name(), entries_text(plan),
            plan.is_continuous() ? "cost curves"
            : plan.has_curves()  ? "prices and cost curves"
                                 : "fits with prices");

@@ -159,6 +159,7 @@ TEST_F(OptimiseProgram, AllocateSaysThatARequirementIsInfeasibleAndWhatCanBeReac
   const Ended ended = call({"allocate", "study.toml", "--set", "motion.duration=20ms", "--out", "out"});
   EXPECT_EQ(ended.status, 1) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("Infeasible"));
+  EXPECT_THAT(ended.out, HasSubstr(": 1 joint, fits with prices"));
   const auto summary = json("out/summary.json");
   EXPECT_FALSE(summary["feasible"].get<bool>());
   EXPECT_GT(summary["best_reachable"].get<double>(), 1e-6);
