@@ -358,8 +358,10 @@ RestingStart RestingBalance::solve() const {
 }
 
 std::string centred_for_want_of(const Mechanism& mechanism, const std::string& refusal) {
+  // The coordinates' refusal goes on to advise the multibody rung, which is the one that says this.
+  const std::string reason = refusal.substr(0, refusal.find("; use the multibody rung"));
   const PartsInPlay parts = parts_in_play(mechanism.description());
-  return parts.inserts + " start in the middle of their " + parts.seats + ": " + refusal;
+  return parts.inserts + " start in the middle of their " + parts.seats + ": " + reason;
 }
 
 VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const SceneStart& start,
