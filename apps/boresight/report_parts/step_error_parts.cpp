@@ -81,7 +81,10 @@ std::string steps_mislead(const MeasuredError& measured, const PointingIndices& 
 
 std::string step_error_sentence(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of,
                                 double size) {
-  if (!measured.measured) return "what the steps do to the indices was not measured: " + measured.why_not;
+  // Nothing is known of why where the command was interrupted before it came to it.
+  if (!measured.measured)
+    return "what the steps do to the indices was not measured" +
+           (measured.why_not.empty() ? std::string() : ": " + measured.why_not);
   if (measured.runs == 0) return measured.basis;
   const double relative = relative_step_error(measured, index, of);
   return fmt::format("{}: within {} of what {} give{}; {}, {} of CPU", of.title(),
