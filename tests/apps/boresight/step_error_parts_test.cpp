@@ -122,7 +122,8 @@ TEST(StepErrorSentence, EndsWithoutAReasonWhereNoneIsKnown) {
   MeasuredError interrupted, refused;
   refused.why_not = "--step-error off";
   const PointingIndices index = indices(1e-4, 0.0);
-  EXPECT_EQ(step_error_sentence(interrupted, index, kMaximum, 1.0), "what the steps do to the indices was not measured");
+  EXPECT_EQ(step_error_sentence(interrupted, index, kMaximum, 1.0),
+            "what the steps do to the indices was not measured");
   EXPECT_EQ(step_error_sentence(refused, index, kMaximum, 1.0),
             "what the steps do to the indices was not measured: --step-error off");
 }
