@@ -206,7 +206,7 @@ void ParameterPath::set(Parameters& parameters, double value) const {
   for (const auto& number : numbers_) *number(parameters) = value;
 }
 
-bool ParameterPath::set(Parameters& parameters, std::span<const double> values) const {
+bool ParameterPath::set(Parameters& parameters, const std::vector<double>& values) const {
   if (values.size() != 1 && values.size() != numbers_.size()) return false;
   for (std::size_t k = 0; k < numbers_.size(); ++k) *numbers_[k](parameters) = values[values.size() == 1 ? 0 : k];
   return true;

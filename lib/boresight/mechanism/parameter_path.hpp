@@ -15,7 +15,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -36,7 +35,7 @@ class ParameterPath {
   std::vector<double> values(const Parameters& parameters) const;
   void set(Parameters& parameters, double value) const;  // all of them
   // All of one value, or each of its own, in the order of values(). False, and nothing is set, of another count.
-  bool set(Parameters& parameters, std::span<const double> values) const;
+  bool set(Parameters& parameters, const std::vector<double>& values) const;
   std::size_t count() const { return numbers_.size(); }
 
  private:

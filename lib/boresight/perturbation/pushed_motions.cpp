@@ -135,7 +135,14 @@ std::shared_ptr<const SceneTables> pushed_by(const SecondOrder& beyond, double t
   std::vector<double> values;
   for (int i = 0; i <= cells; ++i) {
     const double t = i * spacing;
-    VecX load = times * between(missed, t).acceleration();
+    const Between now = between(missed, t);
+    VecX load = times * now.acceleration();
+    // Where A r is made of A and r, more in A makes more of it.
+    if (tables.reaction.width() > 0) {
+      VecX r(n);
+      tables.reaction.at(t, r.data());
+      load -= times * now.inverse_mass() * r;
+    }
     if (before.width() > 0) before.add(t, load.data());
     values.insert(values.end(), load.data(), load.data() + n);
   }

@@ -58,6 +58,9 @@ struct SceneTables {
   // What they shift each joint's offsets by that follow from others, then these shifts' rates, on a grid of their own: one a joint, of width 0
   // where none follow; empty without such errors.
   std::vector<TimeTable> shifts = {};
+  // r, where A r is told and a freedom is not driven. A contact carries r: what is left of A r and A f, each between instants by its own cubic,
+  // is some 1e-7 of either, which such a freedom would integrate twice. So A r is made of A and r then, and nothing is left.
+  TimeTable reaction = {};
 
   // All numbers at t, those of the errors included: a row of dynamics.
   void at(double t, double* row) const;
@@ -130,6 +133,7 @@ class ClearanceScene {
   void add_joints(const MatX& B_rate, Knot& knot) const;
   void add_element(const RidingMass& element, const Knot& knot, double* out) const;
   void assemble(const Parameters& parameters, const Knot& knot, MatX& M, MatX& C, VecX& r) const;
+  TimeTable reactions(const Parameters& parameters) const;
   // What springs and dampers oppose to z, with the part of dampers whose stretch rate z changes.
   MatX spring_stiffness(const Parameters& parameters, const Knot& knot) const;
   // What T'' takes, where offsets depend on others: a load on z of -K z.

@@ -129,18 +129,39 @@ void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, 
 
 void SceneTables::at(double t, double* row) const {
   dynamics.at(t, row);
+  if (reaction.width() > 0) {
+    VecX r(layout.n);
+    reaction.at(t, r.data());
+    for (int i = 0; i < layout.n; ++i) {
+      double& sum = row[layout.Ar + i] = 0.0;
+      for (int j = 0; j < layout.n; ++j) sum += row[layout.inverse_mass(i, j)] * r[j];
+    }
+  }
   if (load_change.width() > 0) load_change.add(t, row + layout.Ar);
   for (std::size_t c = 0; c < shifts.size(); ++c)
     if (shifts[c].width() > 0) shifts[c].add(t, row + layout.joints[c].shift);
+}
+
+TimeTable ClearanceScene::reactions(const Parameters& parameters) const {
+  std::vector<double> values;
+  MatX M, C;
+  VecX r;
+  for (const Knot& knot : knots_) {
+    assemble(parameters, knot, M, C, r);
+    values.insert(values.end(), r.data(), r.data() + layout_.n);
+  }
+  return TimeTable(spacing_, layout_.n, values);
 }
 
 SceneTables ClearanceScene::tables(const Parameters& parameters, SceneForm form) const {
   std::vector<double> rows;
   rows.reserve(knots_.size() * layout_.width);
   for (const Knot& knot : knots_) append_row(parameters, knot, rows, false, form);
-  return {.layout = layout_,
-          .dynamics = TimeTable(spacing_, layout_.width, rows),
-          .start = start_of(parameters, knots_.front())};
+  SceneTables made{.layout = layout_,
+                   .dynamics = TimeTable(spacing_, layout_.width, rows),
+                   .start = start_of(parameters, knots_.front())};
+  if (form == SceneForm::accelerations && coordinates_.leftover() > 0) made.reaction = reactions(parameters);
+  return made;
 }
 
 TimeTable ClearanceScene::pose_gain(int body) const {
