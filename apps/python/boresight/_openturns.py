@@ -40,7 +40,7 @@ def openturns(f: "Function", gradient: str = "auto", steps: Optional[Sequence[fl
     function.setOutputDescription([f.index])
     if not exact:
         if steps is None:
-            steps = [abs(value) / 100.0 for value in f.nominal]
+            steps = [size / 100.0 for size in f.sizes]
             if not all(steps):
                 raise InputError("steps: found none, expected one for each input, as a nominal value is 0")
         function.setGradient(ot.CenteredFiniteDifferenceGradient(list(steps), function.getEvaluation()))

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <thread>
 
@@ -217,10 +218,21 @@ void bind_function(py::module_& module) {
             const auto n = static_cast<py::ssize_t>(point.size());
             return owned(std::move(point), {n});
           },
-          "The point of the file, or the medians of the study, (d,). Raises InputError where an input sets numbers "
-          "alike "
-          "that differ in\n"
-          "the file: no point is that of the file then.")
+          "The point of the file, or the medians of the study, (d,). Raises InputError where an input sets numbers\n"
+          "alike that differ in the file: no point is that of the file then.")
+      .def_property_readonly(
+          "sizes",
+          [](const Function& f) {
+            std::vector<double> sizes;
+            for (const FunctionInput& input : f.of->inputs()) {
+              double& largest = sizes.emplace_back(0.0);
+              for (const double value : input.nominal) largest = std::max(largest, std::abs(value));
+            }
+            const auto n = static_cast<py::ssize_t>(sizes.size());
+            return owned(std::move(sizes), {n});
+          },
+          "How large each input is in the file, or its median in the study, (d,): the largest of numbers that it sets\n"
+          "alike. A scale for steps.")
       .def_property_readonly("index", [](const Function& f) { return f.of->model().index.text(); })
       .def_property_readonly(
           "unit", [](const Function& f) { return f.of->model().index.si_unit(); }, "Of the index.")

@@ -75,6 +75,8 @@ bool is_list(const py::object& value) {
 void set_named_value(NamedParameters& p, const std::string& path, const py::object& value) {
   const ParameterPath place(p.mechanism->description(), path);
   std::vector<double> values;
+  // What is there already may be what its law does not read, and no value that it would take.
+  if (const py::object now = named_value(p, path); value.get_type().is(now.get_type()) && value.equal(now)) return;
   if (!is_list(value))
     values.push_back(value_for(*p.mechanism, path, value));
   else
