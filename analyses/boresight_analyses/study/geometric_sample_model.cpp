@@ -1,9 +1,7 @@
 #include "boresight_analyses/study/geometric_sample_model.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include "boresight/keys/numbers_together.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
 
@@ -36,23 +34,13 @@ void GeometricSampleModel::evaluate(std::span<const Sample> samples, std::span<O
                                     const std::atomic<bool>& stop) const {
   const double start = thread_cpu_seconds();
   std::vector<Parameters> parameters;
-  std::vector<std::size_t> place;  // of each of them among the samples
   parameters.reserve(samples.size());
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    Parameters drawn = parameters_of_(samples[k].values);
-    if (const auto impossible = impossible_numbers(mechanism_->description(), drawn)) {
-      outcomes[k].status = Outcome::Status::failed;
-      outcomes[k].message = impossible->text();
-      continue;
-    }
-    parameters.push_back(std::move(drawn));
-    place.push_back(k);
-  }
-  std::vector<GeometricOutcome> found(parameters.size());
+  for (const Sample& sample : samples) parameters.push_back(parameters_of_(sample.values));
+  std::vector<GeometricOutcome> found(samples.size());
   const std::size_t done = geometry_.run(parameters, found, &stop);
   const double each = (thread_cpu_seconds() - start) / static_cast<double>(std::max<std::size_t>(1, done));
   for (std::size_t k = 0; k < done; ++k) {
-    Outcome& outcome = outcomes[place[k]];
+    Outcome& outcome = outcomes[k];
     outcome.cpu_seconds = each;
     outcome.evaluations = geometry_.operations();
     if (!found[k].refusal.empty() || !std::isfinite(found[k].value)) {

@@ -8,7 +8,6 @@
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight_analyses/study/failures.hpp"
-#include "boresight_analyses/study/geometric_sample_model.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 
@@ -107,29 +106,6 @@ TEST(SampleModel, FailsWhereTheReaderWouldRefuseTheNumbersTogether) {
           << rung << together[k].message;
     }
   }
-}
-
-// Studies give it mechanisms without play, of whose numbers none must fit together; it keeps the rule of all sample models all the same.
-TEST(SampleModel, OfPureGeometryFailsWhereTheReaderWouldRefuseTheNumbersTogether) {
-  const auto mechanism = std::make_shared<const Mechanism>(
-      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/tolerances.toml", {{"motion.duration", "50 ms"}}));
-  const auto parameters_of = [&](std::span<const double> values) {
-    Parameters p = mechanism->parameters();
-    p.error[0] = 1e-5;
-    p.clearance[0].radial = values[0];
-    return p;
-  };
-  const GeometricSampleModel model("perturbation", mechanism, parameters_of, {"position_error", "max"});
-  const std::vector<std::vector<double>> drawn = {{1e-4}, {1.0}, {1e-4}};
-  std::vector<Sample> samples;
-  for (const std::vector<double>& values : drawn) samples.push_back({samples.size(), values});
-  std::vector<Outcome> outcomes(samples.size());
-  const std::atomic<bool> stop{false};
-  model.evaluate(samples, outcomes, stop);
-  for (const std::size_t k : {0, 2}) EXPECT_EQ(outcomes[k].status, Outcome::Status::done) << outcomes[k].message;
-  EXPECT_EQ(outcomes[0].value, outcomes[2].value);
-  EXPECT_EQ(outcomes[1].status, Outcome::Status::failed);
-  EXPECT_NE(outcomes[1].message.find("expected less than journal_radius"), std::string::npos) << outcomes[1].message;
 }
 
 // What rosenbrock took where it took over is no step for rk4: each sample then goes the way of its own run.
