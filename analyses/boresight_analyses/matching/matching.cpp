@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boresight_analyses/matching/confirmation_sentence.hpp"
 #include "boresight_analyses/statistics/independent_samples.hpp"
 
 namespace boresight {
@@ -47,12 +48,6 @@ class Matching {
     for (std::size_t i = 0; i < design.size(); ++i) x.push_back(plan_.variables[i].to_search(design[i]));
     return x;
   }
-  double excess(const MatchingConstraint& c, const std::vector<Outcome>& outcomes) const {
-    const double value = c.measure.of(outcomes);
-    return std::isfinite(value) ? value / c.at_most - 1.0 : kFailedExcess;
-  }
-  static constexpr double kFailedExcess = 1e3;
-
   MatchingVisit visit(const std::vector<double>& design) {
     const std::vector<Outcome>& outcomes = evaluator_->at(design);
     MatchingVisit v{.design = design, .objective = plan_.objective.of(outcomes), .violation = 0.0, .stage = stage_};
@@ -343,28 +338,12 @@ class Matching {
         outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.status != Outcome::Status::done; }));
     const double off = std::abs(c.value - result_.objective);
     bool keeps = true;
-    std::string broken;
-    for (const MatchingConstraint& k : plan_.constraints) {
-      const double beyond = excess(k, outcomes);
-      keeps = keeps && beyond <= options_.accuracy;
-      if (!(beyond > options_.accuracy) || !std::isfinite(k.measure.of(outcomes))) continue;
-      char text[80];
-      std::snprintf(text, sizeof text, "%s%s is %.3g %% beyond its limit there", broken.empty() ? ", and " : ", ",
-                    k.measure.key().c_str(), 100.0 * beyond);
-      broken += text;
-    }
+    for (const MatchingConstraint& k : plan_.constraints) keeps = keeps && excess(k, outcomes) <= options_.accuracy;
     c.agrees = std::isfinite(off) && keeps == result_.feasible &&
                plan_.objective.may_be_alike(evaluator_->at(result_.design), outcomes, options_.confidence,
                                             options_.accuracy * std::abs(c.value));
-    c.sentence = rung + " with seed " + std::to_string(c.seed) + " gives " + shown(c.value, result_.objective) +
-                 " where the search had " + shown(result_.objective, result_.objective) + ": " +
-                 (c.agrees ? "within what samples and accuracy leave open" : "they disagree");
-    if (!c.agrees && result_.feasible) c.sentence += broken;
-    if (!std::isfinite(c.value))
-      c.sentence = rung + " with seed " + std::to_string(c.seed) + " has no value to hold against the search's " +
-                   shown(result_.objective, result_.objective) + ", as " + std::to_string(c.failed) + " of its " +
-                   std::to_string(c.samples) + (c.samples == 1 ? " run failed" : " runs failed") +
-                   ": the optimum is not confirmed";
+    c.sentence = confirmation_sentence(c, plan_.constraints, outcomes, options_.accuracy, result_.objective,
+                                       result_.feasible, [&](double value) { return shown(value, result_.objective); });
     if (!c.agrees && std::isfinite(off)) {
       // On from there, on the better rung.
       DesignEvaluator* before = evaluator_;

@@ -5,6 +5,7 @@
 #include "boresight/math/singular_values.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/generic_instant.hpp"
+#include "boresight/mechanism/multibody_advice.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 
 namespace boresight {
@@ -56,7 +57,7 @@ void choose(const OffsetLayout& layout, const std::vector<MatX>& rows, const Mat
   choice.leftover = static_cast<int>(chosen.size() - offsets);
   if (basis.cols() < freedoms)
     throw ComputationError("the mechanism can move in " + std::to_string(freedoms - basis.cols()) +
-                           " way(s) that no coordinate of a joint describes; use the multibody rung");
+                           " way(s) that no coordinate of a joint describes" + kUseMultibody);
   // Offsets in the order of the layout.
   std::stable_sort(chosen.begin(), chosen.end() - choice.leftover,
                    [](const OffsetChoice::Chosen& a, const OffsetChoice::Chosen& b) {

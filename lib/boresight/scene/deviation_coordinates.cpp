@@ -7,6 +7,7 @@
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/generic_instant.hpp"
+#include "boresight/mechanism/multibody_advice.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 
 namespace boresight {
@@ -89,8 +90,9 @@ void DeviationCoordinates::throw_singular(double t) const {
   // A ball joint's turns have coordinates that end a part of a turn from where it is drawn, though nothing is singular there.
   throw ComputationError("the perturbation of the ideal motion does not exist at t = " + std::to_string(t) +
                          (leftover_ > 0 ? " s: the pose is singular or near it, or the coordinates of a freedom that "
-                                          "nothing drives end there; use the multibody rung"
-                                        : " s: the pose is singular or near it; use the multibody rung"));
+                                          "nothing drives end there"
+                                        : " s: the pose is singular or near it") +
+                         kUseMultibody);
 }
 
 void DeviationCoordinates::gain(double t, MatX& T) {

@@ -5,6 +5,7 @@
 
 #include "boresight/contact_events/contact_jacobian.hpp"
 #include "boresight/math/dense_solves.hpp"
+#include "boresight/mechanism/multibody_advice.hpp"
 #include "boresight/play/joint_play.hpp"
 #include "boresight/play/play_words.hpp"
 #include "boresight/scene/rest_search.hpp"
@@ -358,10 +359,8 @@ RestingStart RestingBalance::solve() const {
 }
 
 std::string centred_for_want_of(const Mechanism& mechanism, const std::string& refusal) {
-  // The coordinates' refusal goes on to advise the multibody rung, which is the one that says this.
-  const std::string reason = refusal.substr(0, refusal.find("; use the multibody rung"));
   const PartsInPlay parts = parts_in_play(mechanism.description());
-  return parts.inserts + " start in the middle of their " + parts.seats + ": " + reason;
+  return parts.inserts + " start in the middle of their " + parts.seats + ": " + without_advice(refusal);
 }
 
 VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const SceneStart& start,

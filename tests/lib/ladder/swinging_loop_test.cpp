@@ -74,7 +74,7 @@ minimum_impact_speed = "1 mm/s"
 )toml";
 
 // What is left between the load of the ideal motion and that of the contact which carries it, each between the instants of a table by
-// its own cubic, was 1e-10 of either, and made 10 nm in five seconds: 0.4 % of the maximum where 0.013 % was stated.
+// its own cubic, was up to 1e-7 of either, now this way and now that, and made 10 nm in five seconds: 0.4 % of the maximum where 0.013 % was stated.
 TEST(SwingingLoop, OfMicrometresIsTheSameByPerturbationAndMultibody) {
   const auto mechanism = std::make_shared<const Mechanism>(read_mechanism_text(kSwing, "swing.toml"));
   RunOptions options;
