@@ -8,8 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "boresight_analyses/statistics/binomial.hpp"
 #include "boresight_analyses/statistics/bonett.hpp"
+#include "boresight_analyses/statistics/gaffke.hpp"
 
 namespace boresight {
 namespace {
@@ -25,24 +25,22 @@ double standard_error(const std::vector<double>& values) {
   return gsl_stats_sd(values.data(), 1, values.size()) / std::sqrt(double(values.size()));
 }
 
-// What shares of designs of `size` samples tell of the share that all of them have on the average, as it lies off their mean: shares of good
-// stratification take two neighbouring values k / size, and all of them the upper one more often than their scatter, which is none then, would say. Of how
-// many take the upper one, Clopper and Pearson (1934, Biometrika 26, 404-413) say how far between the two the average lies. Nothing where
-// shares lie farther apart: there they scatter.
-struct Between {
+// How far off their mean the share may lie that designs of `size` samples have on the average. Shares of good stratification take a few neighbouring
+// values k / size, skewed between them, and often all of them the same: Student's t knows neither. A k beyond those that were seen may have
+// been missed by chance; within these ends the bounds of gaffke.hpp ask nothing of how the shares lie. One such step where all replicates
+// miss one that three in ten have less often than the risk, else two. Enumerated for sums of chances, as the cells of a net that the
+// limit cuts make them, neither side errs more often than it says (ReplicatedSamples.OfAFewCutCellsAreNotSurerThanTheySay).
+struct Off {
   double below = 0.0, above = 0.0;  // the mean
 };
-Between between_neighbours(const std::vector<double>& shares, double size, double confidence) {
+Off off_the_mean(const std::vector<double>& shares, double mean, double size, double confidence) {
   const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
-  constexpr double kOneStep = 1.5;
-  if ((*most - *least) * size > kOneStep) return {};
-  const auto n = static_cast<std::int64_t>(shares.size());
-  const std::int64_t upper = std::count(shares.begin(), shares.end(), *most);
-  const double seen = double(upper) / double(n);
-  const ProbabilityBounds bounds = clopper_pearson(upper, n, confidence);
-  const double below = seen - bounds.low;
-  // Where all are alike, they may be the lower ones as well.
-  return {below / size, (*least < *most ? bounds.high - seen : below) / size};
+  const double risk = 0.5 * (1.0 - confidence), missed = std::pow(0.7, double(shares.size()));
+  const double step = (missed <= risk ? 1.0 : 2.0) / size;
+  std::vector<double> mirrored;
+  for (const double share : shares) mirrored.push_back(1.0 - share);
+  return {mean - gaffke_lower(shares, std::max(0.0, *least - step), risk),
+          1.0 - gaffke_lower(mirrored, std::max(0.0, 1.0 - *most - step), risk) - mean};
 }
 
 // p shifted by `shift` on the logit scale.
@@ -125,9 +123,9 @@ ReplicatedInterval ReplicatedSamples::quantile(double p, double confidence) cons
   // A share is read in steps of 1 / size: what rounding adds keeps a perfectly stratified design from an empty interval.
   const double error = std::hypot(standard_error(shares), 1.0 / (size * std::sqrt(12.0 * double(replicates()))));
   const double shift = student(confidence, replicates()) * error / (p * (1.0 - p));
-  const Between between = between_neighbours(shares, size, confidence);
-  const double share_low = std::min(logit_shifted(p, -shift), p - between.below),
-               share_high = std::max(logit_shifted(p, shift), p + between.above);
+  const Off off = off_the_mean(shares, gsl_stats_mean(shares.data(), 1, shares.size()), size, confidence);
+  const double share_low = std::min(logit_shifted(p, -shift), p - off.below),
+               share_high = std::max(logit_shifted(p, shift), p + off.above);
   const auto low = static_cast<std::int64_t>(std::floor(N * share_low)) - failed();
   const auto high = static_cast<std::int64_t>(std::floor(N * share_high)) + 1;
   if (N * p >= kFewestBeyond && low >= 1) result.low = pooled_[low - 1];
@@ -153,9 +151,9 @@ ReplicatedInterval ReplicatedSamples::probability_below(double limit, double con
   }
   const double rounding = 1.0 / (size * std::sqrt(12.0 * double(replicates())));
   const double shift = student(confidence, replicates()) * std::hypot(error, rounding) / (p * (1.0 - p));
-  const Between between = between_neighbours(shares, size, confidence);
-  result.low = std::max(0.0, std::min(logit_shifted(p, -shift), p - between.below));
-  result.high = std::min(1.0, std::max(logit_shifted(p, shift), p + between.above));
+  const Off off = off_the_mean(shares, p, size, confidence);
+  result.low = std::max(0.0, std::min(logit_shifted(p, -shift), p - off.below));
+  result.high = std::min(1.0, std::max(logit_shifted(p, shift), p + off.above));
   return result;
 }
 

@@ -4,7 +4,8 @@
 //   const ReplicatedSamples samples({{...}, {...}, ...});   // one list per replicate, all of the same size
 //   const ReplicatedInterval worst = samples.quantile(0.9973, 0.95);
 //
-// Student's t over the replicates (Owen 1997; L'Ecuyer, Lemieux 2002). Failed samples as in independent_samples.hpp.
+// Student's t over the replicates (Owen 1997; L'Ecuyer, Lemieux 2002); shares, which lie on a lattice, are never bounded closer than gaffke.hpp
+// bounds them. Failed samples as in independent_samples.hpp.
 #pragma once
 
 #include <cstdint>
