@@ -115,7 +115,7 @@ ReplicatedInterval ReplicatedSamples::quantile(double p, double confidence) cons
                             confidence,
                             confidence,
                             false,
-                            "Woodruff's interval" + over(replicates())};
+                            "Woodruff's interval" + over(replicates()) + ", not closer than Gaffke's"};
   const double N = double(count()), size = N / double(replicates());
   std::vector<double> shares;  // below the pooled quantile
   for (const auto& r : sorted_)
@@ -139,8 +139,13 @@ ReplicatedInterval ReplicatedSamples::probability_below(double limit, double con
   for (const auto& r : sorted_)
     shares.push_back(double(std::upper_bound(r.begin(), r.end(), limit) - r.begin()) / size);
   const double p = gsl_stats_mean(shares.data(), 1, shares.size()), error = standard_error(shares);
-  ReplicatedInterval result{
-      p, 0.0, 1.0, confidence, confidence, false, "Student's t on the logit scale" + over(replicates())};
+  ReplicatedInterval result{p,
+                            0.0,
+                            1.0,
+                            confidence,
+                            confidence,
+                            false,
+                            "Student's t on the logit scale" + over(replicates()) + ", not closer than Gaffke's"};
   const bool all_good = shares == std::vector<double>(shares.size(), 1.0), all_bad = p == 0.0;
   if (all_good || all_bad) {
     const double bound = 1.0 - std::pow(0.5 * (1.0 - confidence), 1.0 / double(replicates()));
