@@ -14,8 +14,7 @@ namespace {
 // One of the two rungs.
 struct Level {
   Level(const StudyRun& run, const std::string& rung, const RandomInputs& inputs)
-      : store(run.open_samples("", inputs.names(), "points-" + rung + ".db")),
-        model(run.model_on(rung, inputs, *store)) {}
+      : store(run.open_samples("", inputs.names(), store_of_tail(rung))), model(run.model_on(rung, inputs, *store)) {}
 
   std::unique_ptr<SampleStore> store;
   std::unique_ptr<SampleModel> model;
@@ -70,8 +69,10 @@ double TailStudy::points_to_show(const Requirement& requirement) const {
   return std::log(2.0 / (1.0 - requirement.confidence)) * estimate.most_weight / (most - found);
 }
 
+std::string store_of_tail(const std::string& rung) { return "points-" + rung + ".db"; }
+
 std::vector<std::string> stores_of_tail(const TailQuestion& asked) {
-  return {"points-" + asked.cheap + ".db", "points-" + asked.exact + ".db"};
+  return {store_of_tail(asked.cheap), store_of_tail(asked.exact)};
 }
 
 TailStudy run_tail_study(const StudyRun& run, const MonteCarloPlan& plan,

@@ -40,6 +40,8 @@ struct TailStudy {
   double points_to_show(const Requirement& requirement) const;
 };
 
+// "points-perturbation.db"
+std::string store_of_tail(const std::string& rung);
 // The stores of a tail study, one per rung: they are there while it is not whole.
 std::vector<std::string> stores_of_tail(const TailQuestion& asked);
 

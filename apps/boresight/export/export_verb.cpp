@@ -1,4 +1,5 @@
-// boresight export DIR: the samples of a Monte Carlo study as CSV.
+// boresight export DIR: the samples of a study as CSV, one table for each store: samples.db becomes samples.csv; of a study on several
+// rungs, whose samples bear the same numbers on each, samples-perturbation.db becomes samples-perturbation.csv.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -10,14 +11,17 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/runs/sample_store.hpp"
 #include "command_line/verb.hpp"
 #include "results/output_directory.hpp"
+#include "results/stored_samples.hpp"
 #include "results/tables.hpp"
 #include "terminal/exit_status.hpp"
+#include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
 namespace boresight::app {
@@ -107,8 +111,10 @@ class ExportVerb : public Verb {
   std::string file_kind() const override { return "results"; }
   std::string operand() const override { return "DIR"; }
   std::string operand_is() const override { return "the folder of a study's results"; }
-  std::string out_is() const override { return "where samples.csv goes; otherwise into DIR itself"; }
-  std::string summary() const override { return "the samples of a study as CSV: samples.csv"; }
+  std::string out_is() const override { return "where the tables go; otherwise into DIR itself"; }
+  std::string summary() const override {
+    return "the samples of a study as CSV: samples.csv, or one table for each rung";
+  }
   std::string example() const override {
     return "boresight montecarlo antenna/montecarlo.toml\n  boresight export results/montecarlo";
   }
@@ -120,7 +126,8 @@ class ExportVerb : public Verb {
     std::error_code error;
     if (!std::filesystem::is_directory(folder, error))
       throw InputError({"command line", 0}, "DIR", "\"" + command.file + "\"", "a folder of results");
-    const SampleStore store(folder / "samples.db");
+    const std::vector<std::filesystem::path> stores = stored_samples(folder);
+    if (stores.empty()) throw StoreRefused(no_samples(folder));
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
       const std::string name = entry.path().filename().string();
       if (name != "samples.db" && name.starts_with("samples.") && name.ends_with(".db"))
@@ -135,7 +142,22 @@ class ExportVerb : public Verb {
       throw OutputDirectoryError("--out " + to.string() + ": cannot write there: " + std::strerror(errno) +
                                  "; give another --out");
 
-    TableFile table(to / "samples.csv");
+    bool damaged = false;
+    for (const std::filesystem::path& file : stores) {
+      const SampleStore store(file);
+      const std::filesystem::path table = to / file.filename().replace_extension(".csv");
+      const std::uint64_t rows = write_table(store, table);
+      if (!command.quiet) tell("{}: {}\n", how_many(rows, "sample"), table.string());
+      if (store.damage().empty()) continue;
+      fmt::print(stderr, "boresight: {}\n", printable(store.damage()));
+      damaged = true;
+    }
+    return damaged ? kFailed : kDone;  // nobody should take these for all of them
+  }
+
+ private:
+  static std::uint64_t write_table(const SampleStore& store, const std::filesystem::path& file) {
+    TableFile table(file);
     std::string header = "sample";
     for (const std::string& path : store.parameters()) header += "," + csv_field(path);
     table.line(header + ",value,status");
@@ -148,10 +170,19 @@ class ExportVerb : public Verb {
       ++rows;
     });
     table.finish();
-    if (!command.quiet) tell("{} samples: {}\n", rows, (to / "samples.csv").string());
-    if (store.damage().empty()) return kDone;
-    fmt::print(stderr, "boresight: {}\n", printable(store.damage()));
-    return kFailed;  // nobody should take these for all of them
+    return rows;
+  }
+
+  // What is missing, and why where the folder's own summary says so.
+  static std::string no_samples(const std::filesystem::path& folder) {
+    std::ifstream in(folder / "summary.json");
+    const nlohmann::json summary = nlohmann::json::parse(in, nullptr, false);
+    if (summary.is_object() && summary.contains("tail"))
+      return folder.string() +
+             " holds no samples: the points of a tail are drawn where the search looked, not as the parameters "
+             "scatter, and are dropped once it is known; levels.csv has what was found";
+    return "found no " + (folder / "samples.db").string() +
+           ", expected a store of samples, or one for each rung of a study on several";
   }
 };
 

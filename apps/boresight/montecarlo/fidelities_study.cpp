@@ -166,7 +166,11 @@ int run_fidelities(const SeveralRungs& s) {
 
   // Not in the summary's warnings, which are the same however often a study was interrupted and however long it took: with its times there.
   if (!more.empty()) warnings.push_back(more);
-  report::Document document = several_rungs_report(s, top, o.leaves_out, warnings);
+  report::Document document = several_rungs_report(
+      s, top, o.leaves_out,
+      "summary.json and rungs.csv beside this file; a samples-RUNG.db for each rung holds every sample, the pilot's "
+      "first (boresight export DIR: CSV)",
+      warnings);
   document.subtitle = "The mean of the " + s.question.study.index.title() + ", on several rungs at once";
   const std::string sentence = fmt::format("Mean {} ± {}, unbiased for {}", readable(o.mean.value.value, unit),
                                            readable(0.5 * (o.mean.value.high - o.mean.value.low), unit), top);

@@ -17,6 +17,7 @@
 #include "montecarlo/several_rungs.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
+#include "results/stored_samples.hpp"
 #include "results/study_warnings.hpp"
 #include "results/summary.hpp"
 #include "results/verb_study.hpp"
@@ -80,11 +81,11 @@ class MonteCarloVerb : public Verb {
   std::string example() const override { return "boresight montecarlo antenna/montecarlo.toml"; }
   std::string next(const Command&, bool answer_is_no) const override {
     const std::filesystem::path folder = last_summary().parent_path();
-    // On several rungs each has a store of its own, which export does not read.
-    const bool has_samples = std::filesystem::exists(folder / "samples.db");
-    if (answer_is_no || !has_samples)
+    const std::vector<std::filesystem::path> stores = stored_samples(folder);  // none of a tail
+    if (answer_is_no || stores.empty())
       return "boresight help sensitivity: which parameter to tighten; boresight help allocate: which fits would do";
-    return "boresight export " + shell_word(folder.string()) + ": every sample as CSV";
+    return "boresight export " + shell_word(folder.string()) + ": every sample as CSV" +
+           (stores.size() > 1 ? ", a table for each rung" : "");
   }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);

@@ -100,12 +100,13 @@ Json several_rungs_summary(const SeveralRungs& s, const std::string& rung, const
 }
 
 report::Document several_rungs_report(const SeveralRungs& s, const std::string& rung, const std::string& leaves_out,
-                                      const std::vector<std::string>& warnings) {
+                                      const std::string& data, const std::vector<std::string>& warnings) {
   report::Document document{.title = s.question.mechanism->name(), .verb = "montecarlo"};
   document.warnings = warnings;
   document.sections.push_back(
       {.id = "model", .title = "What the " + rung + " rung leaves out", .items = {report::Text{leaves_out}}});
   document.provenance = provenance_of(s.command, *s.question.mechanism, named_rung(rung));
+  document.provenance.back() = {"Data", data};
   document.provenance.push_back({"Study hash", s.question.study.content_hash});
   document.provenance.push_back({"Seed", static_cast<double>(s.question.plan.design.seed)});
   return document;

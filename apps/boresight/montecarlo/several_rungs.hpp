@@ -44,10 +44,10 @@ RungChoice named_rung(const std::string& rung);
 std::vector<std::string> several_rungs_warnings(const SeveralRungs& study);
 // Where so much CPU [s] was spent that a reader who set the budget should know why; "" elsewhere.
 std::string overspent(double spent, double budget);
-// What every summary of a Monte Carlo study has; the report's head and end.
+// What every summary of a Monte Carlo study has; the report's head and end. data: where what it shows is kept.
 Json several_rungs_summary(const SeveralRungs& study, const std::string& rung, const std::vector<std::string>& warnings,
                            const SampleStore::Cost& earlier);
 report::Document several_rungs_report(const SeveralRungs& study, const std::string& rung, const std::string& leaves_out,
-                                      const std::vector<std::string>& warnings);
+                                      const std::string& data, const std::vector<std::string>& warnings);
 
 }  // namespace boresight::app

@@ -167,7 +167,8 @@ int run_tail(const SeveralRungs& s) {
                   readable_limit(requirement.limit, unit, requirement.unit), p.low, p.high, asked.exact);
   // Not in the summary's warnings, which are the same however often a study was interrupted and however long it took: with its times there.
   if (!more.empty()) warnings.push_back(more);
-  report::Document document = several_rungs_report(s, asked.exact, found.leaves_out, warnings);
+  report::Document document =
+      several_rungs_report(s, asked.exact, found.leaves_out, "summary.json and levels.csv beside this file", warnings);
   document.subtitle = "How rarely the " + s.question.study.index.title() + " exceeds its limit";
   document.verdict = report::Verdict{shown.met ? report::Standing::good : report::Standing::bad,
                                      sentence + "; " + requirement_words(shown, asked.exact)};

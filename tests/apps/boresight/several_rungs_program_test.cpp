@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -94,8 +95,45 @@ TEST_F(SeveralRungsProgram, TheNextCommandIsOneThatTheResultsServe) {
   study("[montecarlo]\nfidelities = { models = [\"quasistatic\", \"envelope\"], budget = \"0.3 s\", pilot = 10 }\n");
   const Ended ended = ask("montecarlo");
   ASSERT_EQ(ended.status, 0) << ended.err;
-  EXPECT_THAT(ended.out, AllOf(HasSubstr("next: "), Not(HasSubstr("boresight export"))));
-  EXPECT_EQ(call({"export", "out"}).status, 2);
+  EXPECT_THAT(ended.out, HasSubstr("next: boresight export out: every sample as CSV, a table for each rung"));
+  EXPECT_EQ(call({"export", "out"}).status, 0);
+}
+
+TEST_F(SeveralRungsProgram, ExportWritesATableForEachRungAndOneNumberIsOneDraw) {
+  study("[montecarlo]\nfidelities = { models = [\"quasistatic\", \"envelope\"], budget = \"0.3 s\", pilot = 10 }\n");
+  ASSERT_EQ(ask("montecarlo").status, 0);
+  const Ended exported = call({"export", "out", "--out", "csv"});
+  ASSERT_EQ(exported.status, 0) << exported.err;
+  EXPECT_THAT(files("csv"), testing::UnorderedElementsAre("samples-quasistatic.csv", "samples-envelope.csv"));
+  const auto summary = json("out/summary.json");
+  std::vector<std::vector<std::string>> drawn;  // number and parameters, row by row
+  for (const auto& rung : summary["fidelities"]["rungs"]) {
+    const std::string name = "csv/samples-" + rung["rung"].get<std::string>() + ".csv";
+    EXPECT_THAT(exported.out, HasSubstr(name));
+    std::istringstream table(text(name));
+    std::string line;
+    std::getline(table, line);
+    EXPECT_EQ(line, "sample,clearance.F1.radial,clearance.F1.friction.coefficient,value,status");
+    auto& rows = drawn.emplace_back();
+    while (std::getline(table, line)) rows.push_back(line.substr(0, line.rfind(',', line.rfind(',') - 1)));
+    EXPECT_EQ(rows.size(), rung["samples"].get<std::size_t>() + 10) << "the pilot's ten and the estimate's";
+  }
+  ASSERT_EQ(drawn.size(), 2u);
+  for (std::size_t k = 0; k < 10; ++k) EXPECT_EQ(drawn[0][k], drawn[1][k]);
+  EXPECT_NE(text("csv/samples-quasistatic.csv"), text("csv/samples-envelope.csv")) << "the values are the rung's own";
+}
+
+TEST_F(SeveralRungsProgram, ExportSaysWhyATailHasNoSamples) {
+  study(
+      "[montecarlo]\nrequirement = { limit = \"0.3 mm\", probability = 0.9, confidence = 0.9 }\n"
+      "tail = { cheap = \"envelope\", exact = \"quasistatic\", budget = \"0.2 s\", pilot = 10 }\n");
+  const Ended ended = ask("montecarlo");
+  ASSERT_LE(ended.status, 1) << ended.err;
+  EXPECT_THAT(ended.out, Not(HasSubstr("boresight export")));
+  const Ended exported = call({"export", "out"});
+  EXPECT_EQ(exported.status, 2);
+  EXPECT_TRUE(is_one_line(exported.err)) << exported.err;
+  EXPECT_THAT(exported.err, HasSubstr("holds no samples: the points of a tail"));
 }
 
 TEST_F(SeveralRungsProgram, FidelitiesSayThatTheirBudgetDecidesHowManySamplesThereAre) {
