@@ -17,6 +17,11 @@ class Allocating {
   AllocationResult run(double misfit, const ConfirmingModel& confirm, const std::string& rung);
 
  private:
+  struct Refuted {
+    Allocation set;
+    std::size_t confirmation = 0;  // which of them said so
+  };
+
   void progress(const std::string& stage, double share) const;
   double working_limit(double limit) const { return limit / result_.factor; }
 
@@ -73,6 +78,8 @@ class Allocating {
   std::vector<double> extreme_gaps(bool highest) const;
 
   static bool same(const Allocation& a, const Allocation& b);
+  // Its refutation; nullptr: none.
+  const Refuted* refutation_of(const Allocation& a) const;
 
   // What the two classical ways of judging choose for the same limit, and how that fares by the samples.
   void compare();
@@ -96,7 +103,7 @@ class Allocating {
   std::vector<ContinuousTolerance> curves_;
   std::vector<std::vector<double>> z_;
   std::unique_ptr<StatisticalRequirement> statistical_;
-  Allocation refuted_;
+  std::vector<Refuted> refuted_;  // none of them is asked again
   AllocationResult result_;
 };
 

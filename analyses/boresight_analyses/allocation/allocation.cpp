@@ -311,27 +311,31 @@ void Allocating::search_rounds(const ConfirmingModel& confirm, const std::string
   for (int round = 0; round < kMostRounds; ++round) {
     progress("searching", 0.2 + 0.15 * round);
     a = cheapest(plan_.requirement.limit, a.feasible ? a.choice : std::vector<int>{});
-    // A set that was refuted is not asked again: its index is taken for larger until another one is found.
+    // A set that was refuted, in whichever round, is not asked again: its index is taken for larger until another one is found.
     constexpr double kFurther = 1.005;
-    while (a.feasible && !result_.confirmations.empty() && !result_.confirmations.back().met && same(a, refuted_)) {
+    bool further = false;
+    while (a.feasible && refutation_of(a) != nullptr) {
+      further = true;
       result_.factor *= kFurther;
       a = cheapest(plan_.requirement.limit);
     }
-    if (!a.feasible) break;
-    if (result_.feasible && !(a.price < result_.chosen.price * (1.0 - kRoundingOfPrices)) &&
+    if (result_.feasible && !(a.feasible && a.price < result_.chosen.price * (1.0 - kRoundingOfPrices)) &&
         !result_.confirmations.back().agrees) {
       // Nothing cheaper under the corrected factor than what was confirmed already.
       AllocationConfirmation& last = result_.confirmations.back();
       last.sentence +=
           last.met ? ", but no cheaper set can be shown" : "; nothing between it and the set confirmed before is left";
       last.agrees = last.met;
+      // Under a factor that no samples asked for that is no proof.
+      if (further) result_.chosen.proven = false, result_.chosen.bound = 0.0;
       break;
     }
+    if (!a.feasible) break;
     progress("confirming on the rung " + rung, 0.25 + 0.15 * round);
     double factor = 1.0;
     AllocationConfirmation c = confirmed(a, confirm, rung, factor);
     const bool go_on = !c.agrees && round + 1 < kMostRounds && std::isfinite(factor);
-    if (!c.met) refuted_ = a;
+    if (!c.met) refuted_.push_back({a, result_.confirmations.size()});
     if (c.met && (!result_.feasible || a.price < result_.chosen.price)) {
       result_.feasible = true;
       result_.chosen = a;
@@ -360,6 +364,12 @@ bool Allocating::same(const Allocation& a, const Allocation& b) {
     if (is_chosen && a.choice[j] != b.choice[j]) return false;
   }
   return true;
+}
+
+const Allocating::Refuted* Allocating::refutation_of(const Allocation& a) const {
+  for (const Refuted& refuted : refuted_)
+    if (same(a, refuted.set)) return &refuted;
+  return nullptr;
 }
 
 AllocationResult run_allocation(const AllocationPlan& plan, const LinearDeviation& deviation, double misfit,

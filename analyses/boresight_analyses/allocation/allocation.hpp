@@ -6,7 +6,7 @@
 // confirms say by which factor its index differs on the very same gaps, and the search goes on with the limit
 // divided by it (space mapping: Bandler et al. 1994, IEEE Trans. MTT 42(12)). The winner is then confirmed by
 // fresh samples on that rung (confirmation.hpp); where these disagree the factor is corrected by them, the search
-// goes on from there, and what it finds is confirmed by samples that are fresh again.
+// goes on from there, and what it finds is confirmed by samples that are fresh again. A set that they refuted is not asked again.
 //
 // Before nothing is said to do, the tightest gaps are tried on that rung, and where gaps work against each other
 // also the set that the search's samples find to point best.
@@ -61,7 +61,7 @@ struct CostPoint {
 
 struct AllocationResult {
   bool feasible = false;         // a set meets the requirement, confirmed
-  std::size_t confirmed_by = 0;  // which of the confirmations, where feasible
+  std::size_t confirmed_by = 0;  // which of the confirmations is of the chosen set
   bool interrupted = false;
   bool converged = false;       // the search ended by itself, and what it found is confirmed
   double misfit = 0.0;          // of the linear deviation against its own rung, relative

@@ -20,6 +20,16 @@ void Allocating::try_what_points_best(const Allocation& a, const ConfirmingModel
     progress("trying " + which + " on the rung " + rung, 0.8);
     Allocation tried = tries[i];
     evaluate(tried);
+    const auto best_so_far = [&](const AllocationConfirmation& c, std::size_t number) {
+      if (i > 0 && !(c.reached < result_.best_reachable)) return;
+      result_.best_reachable = c.reached;
+      result_.chosen = tried;
+      result_.confirmed_by = number;
+    };
+    if (const Refuted* refuted = refutation_of(tried)) {  // by a round: what that found stands
+      best_so_far(result_.confirmations[refuted->confirmation], refuted->confirmation);
+      continue;
+    }
     double factor = 1.0;
     AllocationConfirmation c = confirmed(tried, confirm, rung, factor);
     c.sentence += ", with " + which;
@@ -35,11 +45,8 @@ void Allocating::try_what_points_best(const Allocation& a, const ConfirmingModel
       result_.confirmations.push_back(c);
       return;
     }
+    best_so_far(c, result_.confirmations.size());
     result_.confirmations.push_back(c);
-    if (i == 0 || c.reached < result_.best_reachable) {
-      result_.best_reachable = c.reached;
-      result_.chosen = tried;
-    }
   }
   result_.converged = !a.feasible && a.proven;
 }

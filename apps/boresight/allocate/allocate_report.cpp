@@ -191,7 +191,7 @@ std::string allocate_sentence(const AllocateStudy& s) {
     return fmt::format("Infeasible: no allocation {} to keep {}. The best that was reached is {}, for {:.4g}: {}.",
                        s.result.converged ? "can be shown" : "was found", requirement_text(s),
                        index_text(s, s.result.best_reachable), s.result.chosen.price,
-                       s.result.confirmations.back().sentence);
+                       s.result.confirmations[s.result.confirmed_by].sentence);
   return fmt::format(
       "The cheapest choice{} costs {:.5g} and keeps the {}. {}{}.", s.result.chosen.proven ? "" : " that was found",
       s.result.chosen.price, requirement_text(s),

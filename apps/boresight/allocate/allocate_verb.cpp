@@ -272,9 +272,11 @@ class AllocateVerb : public Verb {
                          s.rung.name + " confirms what it finds");
     if (r.feasible && !r.chosen.finished)
       warnings.push_back("the search ended before it had shown that nothing cheaper meets the requirement");
-    for (std::size_t k = 0; k + 1 < r.confirmations.size(); ++k)
-      warnings.push_back("round " + std::to_string(k + 1) +
-                         " of the confirmation disagreed with the search: " + r.confirmations[k].sentence);
+    const std::size_t told = r.feasible ? r.confirmations.size() - 1 : r.confirmed_by;  // beside the answer
+    for (std::size_t k = 0; k < r.confirmations.size(); ++k)
+      if (k != told)
+        warnings.push_back("round " + std::to_string(k + 1) +
+                           " of the confirmation disagreed with the search: " + r.confirmations[k].sentence);
     if (r.misfit > kMostMisfit)
       warnings.push_back(fmt::format("the error is not linear in the gaps: off by {} against the quasistatic rung",
                                      relative_text(r.misfit)));

@@ -274,6 +274,55 @@ TEST(Allocation, OverCostCurvesClaimsNoProof) {
   EXPECT_FALSE(result.chosen.proven);
 }
 
+// One joint, whose widest option the rung refutes and whose others it likes: the search's factor follows it up and down, and comes back to
+// what was refuted.
+TEST(Allocation, AsksNoSetAgainThatAnyRoundHasRefuted) {
+  AllocationPlan plan = plan_with(13, 5);
+  plan.entries.pop_back();
+  plan.requirement.limit = 1.045 * kMilli;
+  const LinearDeviation one_gap({0.0}, {0, 0, 0}, {{1, 0, 0}}, "max");
+  std::vector<int> asked;
+  const AllocationResult result =
+      run_allocation(plan, one_gap, 0.0,
+                     [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+                       const int option = static_cast<int>(std::floor((gaps[0][0] / kMilli - 1.0) / kStep + 1e-9));
+                       asked.push_back(option);
+                       const double factor = asked.size() == 1 ? 1.0 : option == 4 ? 1.027 : 0.98;
+                       std::vector<Outcome> outcomes;
+                       for (const auto& g : gaps) outcomes.push_back(done(factor * g[0]));
+                       return outcomes;
+                     },
+                     "synthetic", {.accuracy = 0.001});
+  ASSERT_TRUE(result.feasible);
+  asked.erase(asked.begin());  // the trial that the first factor is from
+  EXPECT_EQ(asked.front(), 4);
+  std::vector<int> sorted = asked;
+  std::sort(sorted.begin(), sorted.end());
+  EXPECT_EQ(std::unique(sorted.begin(), sorted.end()), sorted.end()) << testing::PrintToString(asked);
+  EXPECT_EQ(result.chosen.choice, std::vector<int>{3});
+  EXPECT_FALSE(result.chosen.proven) << "the factor that leaves out the refuted set was measured by nobody";
+}
+
+// The only set there is, and so the tightest: what a round found of it stands.
+TEST(Allocation, TriesNoTightestGapsAgainThatARoundHasRefuted) {
+  AllocationPlan plan = plan_with(15, 1);
+  int calls = 0;
+  const AllocationResult result =
+      run_allocation(plan, sum_of_gaps(), 0.0,
+                     [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+                       const double factor = calls++ == 0 ? 1.0 : 1.1;
+                       std::vector<Outcome> outcomes;
+                       for (const auto& g : gaps) outcomes.push_back(done(factor * (g[0] + g[1])));
+                       return outcomes;
+                     },
+                     "synthetic", {});
+  EXPECT_FALSE(result.feasible);
+  EXPECT_EQ(calls, 2) << "the trial that the factor is from, and one confirmation";
+  ASSERT_EQ(result.confirmations.size(), 1u);
+  EXPECT_EQ(result.best_reachable, result.confirmations.front().reached);
+  EXPECT_EQ(result.chosen.choice, (std::vector<int>{0, 0}));
+}
+
 // Samples of the search that a moderate requirement does with: the rung is first tried on those, and no more.
 TEST(Confirmation, OfFewSamplesIsTriedOnThoseThatThereAre) {
   AllocationPlan plan = plan_with(7, 3);
