@@ -28,6 +28,9 @@ namespace boresight {
 // A linear deviation that is off by more than this against its own rung proves nothing of sets that were not confirmed.
 inline constexpr double kMostMisfit = 0.02;
 
+// By this much a limit is tightened to see what its last micrometre, or microradian, costs [m, rad].
+inline constexpr double kLastMicro = 1e-6;
+
 // One set of fits or tolerances, and what it does.
 struct Allocation {
   std::string judged_by;  // "samples", "worst case", "root-sum-square"

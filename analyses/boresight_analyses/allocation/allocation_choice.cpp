@@ -5,11 +5,6 @@
 #include "boresight_analyses/allocation/allocating.hpp"
 
 namespace boresight {
-namespace {
-
-constexpr double kMicro = 1e-6;  // [m], by which a limit is tightened to see what that costs
-
-}  // namespace
 
 void Allocating::try_what_points_best(const Allocation& a, const ConfirmingModel& confirm, const std::string& rung) {
   std::vector<Allocation> tries = {tightest_like(a)};
@@ -209,7 +204,7 @@ void Allocating::price_front() {
   };
   progress("the price of the last micrometre", 0.9);
   const Allocation here = cheapest(limit, result_.chosen.choice);
-  const CostPoint tighter = priced(limit - kMicro);
+  const CostPoint tighter = priced(limit - kLastMicro);
   result_.last_micrometre =
       tighter.feasible && here.feasible ? tighter.price - here.price : std::numeric_limits<double>::quiet_NaN();
   // From the least reachable to where the cheapest of all meets it.

@@ -135,6 +135,7 @@ AllocationEntry read_joint(Cursor& entry, const std::vector<AllocationOption>& c
     joint.options = read_processes(entry, joint, kLength, law);
   } else if (entry.has("cost")) {
     joint.curve = read_curve(entry, joint, kLength);
+    joint.said_in = entry.unit_as_written("tolerance");
   } else {
     if (common.empty()) entry.fail("fits", "fits, processes or cost; or fits of all joints, in [allocate]");
     joint.options = common;
@@ -175,8 +176,7 @@ std::vector<AllocationEntry> read_errors_of(Cursor& table, ZoneLaw law, const Me
       entry.options = read_processes(table, entry, unit, law);
     else
       entry.curve = read_curve(table, entry, unit);
-    if (are_scales(mechanism, entry.paths))
-      entry.said_in = unit_to_say(mechanism, entry.paths, table.unit_as_written("tolerance"));
+    entry.said_in = unit_to_say(mechanism, entry.paths, table.unit_as_written("tolerance"));
     check_gaps(table, entry, accepts);
     entries.push_back(std::move(entry));
   }

@@ -55,7 +55,8 @@ struct AllocationEntry {
   ContinuousTolerance curve;
   double least = 0.0;     // gap at tolerance zero [m]; of an error its value in the mechanism file
   bool is_error = false;  // whose zone lies to both sides of `least`
-  std::string said_in;    // of a scale: "ppm", or as its tolerance is written; "": as people read the SI unit
+  std::string
+      said_in;  // the unit that its tolerance is written in; of a scale without one "ppm"; "": as people read the SI unit
 
   const std::string& name() const { return paths.front(); }
   const std::string& unit() const { return places.front().unit(); }

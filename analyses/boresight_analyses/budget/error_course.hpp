@@ -28,6 +28,7 @@ struct ErrorCourse {
   std::string text;             // of the course, as it is written
   DistributionPtr factor;       // F; none: 1
   DistributionPtr value;        // V; none: zero
+  std::string unit;             // in which V is written: "arcsec"; "": as people read the SI unit
   std::vector<Vec3> by_course;  // G c on the grid of the histories, once follow_errors() was called [of the index]
   std::vector<Vec3> by_value;   // G there
 };

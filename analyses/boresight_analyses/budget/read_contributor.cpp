@@ -70,9 +70,11 @@ ErrorCourse read_error_course(Cursor& table, const BudgetPlan& plan, const Mecha
     table.fail("course", "a course, a distribution or a value");
   if (table.has("value")) {
     error.value = make_discrete({table.quantity("value", unit)}, {1.0});
+    error.unit = table.unit_as_written("value");
   } else if (table.has("distribution")) {
     Cursor distribution = table.table("distribution");
     error.value = read_distribution(distribution, unit);
+    error.unit = unit_as_written_of(distribution);
   }
   return error;
 }

@@ -369,23 +369,29 @@ class Matching {
       find_as_good(visits_before);
       evaluator_ = before;
       result_.descents.back().agrees = true;
-      constraints_of(confirm);
-      on_confirming_rung_ = true;
+      result_.on_confirming_rung = true;
+      describe_constraints(confirm);
       result_.interval = plan_.objective.interval(confirm.at(result_.design), options_.confidence);
       result_.evaluations += confirm.computed();
       result_.reused += confirm.reused();
     }
+    c.constraint_values = constraints_of(confirm);
     result_.confirmation.push_back(c);
   }
 
-  void constraints_of(DesignEvaluator& evaluator) {
-    result_.constraint_values.clear();
-    result_.active.clear();
+  // At the optimum, on this evaluator's rung.
+  std::vector<double> constraints_of(DesignEvaluator& evaluator) const {
+    std::vector<double> values;
     const auto& outcomes = evaluator.at(result_.design);
-    for (const MatchingConstraint& c : plan_.constraints) {
-      result_.constraint_values.push_back(c.measure.of(outcomes));
-      result_.active.push_back(result_.constraint_values.back() > 0.99 * c.at_most);
-    }
+    for (const MatchingConstraint& c : plan_.constraints) values.push_back(c.measure.of(outcomes));
+    return values;
+  }
+
+  void describe_constraints(DesignEvaluator& evaluator) {
+    result_.constraint_values = constraints_of(evaluator);
+    result_.active.clear();
+    for (std::size_t k = 0; k < plan_.constraints.size(); ++k)
+      result_.active.push_back(result_.constraint_values[k] > 0.99 * plan_.constraints[k].at_most);
   }
 
   void describe(DesignEvaluator& evaluator) {
@@ -395,8 +401,8 @@ class Matching {
       const double margin = 1e-3 * (high - low);
       result_.at_bound.push_back(at < low + margin || at > high - margin);
     }
-    if (on_confirming_rung_) return;
-    constraints_of(evaluator);
+    if (result_.on_confirming_rung) return;
+    describe_constraints(evaluator);
     result_.interval = plan_.objective.interval(evaluator.at(result_.design), options_.confidence);
   }
 
@@ -407,7 +413,6 @@ class Matching {
   std::string stage_;
   std::string no_slopes_;  // why descents no longer go by gradients
   double largest_ = 0.0;
-  bool on_confirming_rung_ = false;
 };
 
 }  // namespace

@@ -55,6 +55,7 @@ struct MatchingConfirmation {
   bool went_on = false;        // a descent on this rung moved the optimum
   std::vector<double> design;  // where it ended
   double objective = 0.0;
+  std::vector<double> constraint_values;  // there, on this rung
   std::string sentence;
 };
 
@@ -66,6 +67,9 @@ struct MatchingResult {
   // Values of the variables among those tried that are as good, as far as the samples can tell (paired
   // differences, 95 %).
   std::vector<double> as_good_from, as_good_to;
+  // The objective, its interval and the constraints' values are of the rung that confirms, where a descent went on there; otherwise of the
+  // search's.
+  bool on_confirming_rung = false;
   std::vector<double> constraint_values;
   std::vector<bool> active;    // constraints within 1 % of their bound
   std::vector<bool> at_bound;  // variables

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <limits>
 #include <map>
-#include <set>
 #include <stdexcept>
 
 #include "boresight/io/tried_value.hpp"
@@ -36,20 +35,6 @@ void check_ends(Cursor& entry, const RandomParameter& random, const std::functio
       }
     }
   }
-}
-
-// In which unit the values of a distribution are written: { normal = { mean = "0.1 mm", ... } }.
-std::string unit_of(Cursor& distribution) {
-  static const std::set<std::string> kValues = {"mean",  "median", "mode",     "min",
-                                                "scale", "values", "diameter", "width"};
-  for (const std::string& name : distribution.keys()) {
-    if (!distribution.is_table(name)) continue;
-    Cursor kind = distribution.table(name);
-    if (kind.has("length")) continue;  // the values are angles, what is written is not
-    for (const std::string& key : kind.keys())
-      if (kValues.contains(key)) return kind.unit_as_written(key);
-  }
-  return "";
 }
 
 // The one value that these have in the mechanism [SI]; where they differ, all.
@@ -88,7 +73,7 @@ RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechan
   random.distribution = read_distribution(distribution, unit_of_parameters(mechanism, random.paths, random.si_unit),
                                           journals, here.front());
   random.are_scales = are_scales(mechanism, random.paths);
-  random.unit = unit_to_say(mechanism, random.paths, unit_of(distribution));
+  random.unit = unit_to_say(mechanism, random.paths, unit_as_written_of(distribution));
   check_ends(entry, random, accepts);
   return random;
 }
@@ -130,7 +115,7 @@ void read_drawn_together(Cursor& entry, const MechanismDescription& mechanism,
   for (std::size_t k = 0; k < 2; ++k) {
     pair[k].distribution = disc.marginal(k);
     pair[k].are_scales = are_scales(mechanism, pair[k].paths);
-    pair[k].unit = unit_to_say(mechanism, pair[k].paths, unit_of(distribution));
+    pair[k].unit = unit_to_say(mechanism, pair[k].paths, unit_as_written_of(distribution));
     check_ends(entry, pair[k], accepts);
   }
   distribution.finish();

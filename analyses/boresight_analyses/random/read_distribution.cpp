@@ -173,4 +173,17 @@ DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::
   return distribution;
 }
 
+std::string unit_as_written_of(Cursor& distribution) {
+  static const std::set<std::string> kValues = {"mean",  "median", "mode",     "min",
+                                                "scale", "values", "diameter", "width"};
+  for (const std::string& name : distribution.keys()) {
+    if (!distribution.is_table(name)) continue;
+    Cursor kind = distribution.table(name);
+    if (kind.has("length")) continue;  // the values are angles, what is written is not
+    for (const std::string& key : kind.keys())
+      if (kValues.contains(key)) return kind.unit_as_written(key);
+  }
+  return "";
+}
+
 }  // namespace boresight

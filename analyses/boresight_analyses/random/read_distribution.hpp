@@ -14,4 +14,7 @@ namespace boresight {
 DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::vector<JournalSize>& journals = {},
                                   double nominal = 0.0);
 
+// In which unit the values of such a table are written: "mm" of { normal = { mean = "0.1 mm", ... } }; "": none, or not in one of theirs.
+std::string unit_as_written_of(Cursor& entry);
+
 }  // namespace boresight

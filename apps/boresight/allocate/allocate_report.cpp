@@ -214,7 +214,9 @@ std::string allocate_sentence(const AllocateStudy& s) {
 
 std::string last_micro_sentence(const AllocateStudy& s) {
   const double costs = s.result.last_micrometre;
-  return fmt::format("keeping the limit by 1 {} tighter costs {}", s.study.index.si_unit() == "m" ? "µm" : "µrad",
+  const std::string step = s.study.index.si_unit() == "m" ? "1 µm" : "1 µrad", typed = index_text(s, kLastMicro);
+  const bool alike = s.plan.requirement.unit.ends_with("rad") || s.study.index.si_unit() == "m" || typed == step;
+  return fmt::format("keeping the limit by {}{} tighter costs {}", step, alike ? "" : " (" + typed + ")",
                      costs > 0.0 ? fmt::format("{:.4g} more", costs) : "nothing more");
 }
 

@@ -14,7 +14,7 @@ namespace boresight::app {
 std::string percent(double share);
 // Angles in arcsec, lengths in the unit that suits the largest.
 DisplayUnit budget_unit(const BudgetStudy& study, double largest);
-std::string interval_text(const BudgetStudy& study, const ReportedInterval& interval);
+std::string interval_text(const BudgetStudy& study, const ReportedInterval& interval, const std::string& written = "");
 std::string standing_text(RuleStanding standing, double by_rule, double simulated);
 // Why it cannot be told whether the rule is fair: what the members leave of it. "" where it can.
 std::string rule_doubt(const BudgetStudy& study, const BudgetLevel& level);

@@ -117,14 +117,16 @@ std::string budget_value(const BudgetStudy& s, double value) {
   return readable_as(value, s.study.index.si_unit(), written);
 }
 
+std::string budget_value(const BudgetStudy& s, double value, const std::string& written) {
+  return written.empty() ? budget_value(s, value) : readable_as(value, s.study.index.si_unit(), written);
+}
+
 std::string budget_limit(const BudgetStudy& s, double value, const std::string& written) {
   return readable_limit(value, s.study.index.si_unit(), written);
 }
 
 std::string requirement_sentence(const BudgetStudy& s, const RequirementAnswer& r) {
-  const auto in_its_unit = [&](double value) {
-    return r.asked.unit.empty() ? budget_value(s, value) : readable_as(value, s.study.index.si_unit(), r.asked.unit);
-  };
+  const auto in_its_unit = [&](double value) { return budget_value(s, value, r.asked.unit); };
   std::string text =
       fmt::format("{}: {}, limit {}: {}", requirement_title(s, r.asked), in_its_unit(r.level.level.value),
                   budget_limit(s, r.asked.limit, r.asked.unit), r.compliance.met ? "met" : "not shown to be met");

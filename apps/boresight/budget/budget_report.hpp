@@ -59,6 +59,8 @@ std::string requirement_title(const BudgetStudy& study, const BudgetRequirement&
 const RequirementAnswer* headline_answer(const Budget& budget);
 // Angles in arcsec, lengths in the unit that suits them.
 std::string budget_value(const BudgetStudy& study, double value);
+// Beside a limit or an allocation of its own: in the unit that this is typed in.
+std::string budget_value(const BudgetStudy& study, double value, const std::string& written);
 // A limit, or what is allocated: as it is typed, with all its digits.
 std::string budget_limit(const BudgetStudy& study, double value, const std::string& written);
 std::string requirement_sentence(const BudgetStudy& study, const RequirementAnswer& answer);

@@ -41,7 +41,7 @@ std::string measured_text(const MeasuredCourse& m) {
 // A standing error over time: its course, and what scatters it.
 std::vector<nlohmann::json> of_error_row(const Contributor& c) {
   const ErrorCourse& e = *c.of_error;
-  const auto in_unit = [&](double v) { return readable(v, e.si_unit); };
+  const auto in_unit = [&](double v) { return readable_as(v, e.si_unit, e.unit); };
   std::string spread;
   if (e.course)
     spread = "factor " + (e.factor ? spread_text(*e.factor, [](double v) { return readable_number(v); }) : "1 in all");
@@ -66,8 +66,9 @@ DisplayUnit budget_unit(const BudgetStudy& s, double largest) {
   return display_unit_as(s.study.index.si_unit(), largest, written);
 }
 
-std::string interval_text(const BudgetStudy& s, const ReportedInterval& i) {
-  return budget_value(s, i.low) + " to " + (std::isfinite(i.high) ? budget_value(s, i.high) : "no bound");
+std::string interval_text(const BudgetStudy& s, const ReportedInterval& i, const std::string& written) {
+  return budget_value(s, i.low, written) + " to " +
+         (std::isfinite(i.high) ? budget_value(s, i.high, written) : "no bound");
 }
 
 std::string standing_text(RuleStanding standing, double by_rule, double simulated) {
@@ -116,13 +117,13 @@ report::Table requirement_table(const BudgetStudy& s, const Budget& b) {
   for (const RequirementAnswer& r : b.requirements)
     table.rows.push_back(
         {requirement_title(s, r.asked), budget_limit(s, r.asked.limit, r.asked.unit),
-         budget_value(s, r.level.level.value), interval_text(s, r.level.level),
+         budget_value(s, r.level.level.value, r.asked.unit), interval_text(s, r.level.level, r.asked.unit),
          readable_share(r.margin() / r.asked.limit),
          r.judgement.by == Judgement::By::nothing
              ? std::string("nothing")
              : fmt::format("{:.4g} % with {} confidence", 100.0 * r.compliance.shown, percent(r.asked.confidence)),
          r.compliance.met ? "met" : "not shown to be met",
-         fmt::format("{} ({})", budget_value(s, r.level.by_rule), r.rule_says_met() ? "met" : "not met"),
+         fmt::format("{} ({})", budget_value(s, r.level.by_rule, r.asked.unit), r.rule_says_met() ? "met" : "not met"),
          kFromMembers});
   return table;
 }

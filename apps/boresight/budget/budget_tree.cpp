@@ -17,8 +17,9 @@ std::string answer_of(const SubBudget& p) {
 
 std::string of_parts(const BudgetStudy& s, const SubBudget& p) {
   if (p.parts_sum == 0.0) return "";
-  std::string text = fmt::format("{} by root sum of squares, {} added up", budget_value(s, p.parts_root_sum_square),
-                                 budget_value(s, p.parts_sum));
+  std::string text =
+      fmt::format("{} by root sum of squares, {} added up", budget_value(s, p.parts_root_sum_square, p.unit),
+                  budget_value(s, p.parts_sum, p.unit));
   if (p.allocated == 0.0) return text;
   if (p.parts_root_sum_square > p.allocated) return text + ": more than this";
   return text + (p.parts_sum > p.allocated ? ": within this if they are independent" : ": within this");
@@ -49,9 +50,9 @@ report::Section tree_section(const BudgetStudy& s, const Budget& b) {
     std::string indent;
     for (int k = 0; k < p.depth; ++k) indent += "– ";
     table.rows.push_back({indent + p.name, holds, p.allocated > 0.0 ? budget_limit(s, p.allocated, p.unit) : "",
-                          budget_value(s, p.level.value), interval_text(s, p.level),
-                          p.allocated > 0.0 ? budget_value(s, p.allocated - p.level.value) : "", answer_of(p),
-                          budget_value(s, p.by_rule), of_parts(s, p)});
+                          budget_value(s, p.level.value, p.unit), interval_text(s, p.level, p.unit),
+                          p.allocated > 0.0 ? budget_value(s, p.allocated - p.level.value, p.unit) : "", answer_of(p),
+                          budget_value(s, p.by_rule, p.unit), of_parts(s, p)});
   }
   return {.id = "parts",
           .title = "The tree of the budget",
@@ -87,11 +88,12 @@ std::vector<std::string> tree_warnings(const BudgetStudy& s, const Budget& b) {
   std::vector<std::string> out;
   for (const SubBudget& p : b.parts) {
     if (p.allocated > 0.0 && !p.compliance.met)
-      out.push_back(fmt::format("the part {} comes to {} of {} allocated: {}", p.name, budget_value(s, p.level.value),
-                                budget_limit(s, p.allocated, p.unit), answer_of(p)));
+      out.push_back(fmt::format("the part {} comes to {} of {} allocated: {}", p.name,
+                                budget_value(s, p.level.value, p.unit), budget_limit(s, p.allocated, p.unit),
+                                answer_of(p)));
     if (p.allocated > 0.0 && p.parts_root_sum_square > p.allocated)
       out.push_back(fmt::format("what is allocated within {} is {} by root sum of squares, more than its own {}",
-                                p.name, budget_value(s, p.parts_root_sum_square),
+                                p.name, budget_value(s, p.parts_root_sum_square, p.unit),
                                 budget_limit(s, p.allocated, p.unit)));
   }
   return out;

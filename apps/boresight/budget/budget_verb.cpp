@@ -190,7 +190,8 @@ class BudgetVerb : public Verb {
         if (r.outcome.value > largest) largest = r.outcome.value;
       }
       stage->update(static_cast<double>(begun_with), static_cast<double>(done),
-                    "largest " + study.index.quantity_title() + " so far " + readable(largest, study.index.si_unit()) +
+                    "largest " + study.index.quantity_title() + " so far " +
+                        readable_as(largest, study.index.si_unit(), plan.written_unit()) +
                         (failed > 0 ? fmt::format(", {} failed", failed) : ""));
     };
     const bool whole = store_runs(
@@ -289,8 +290,9 @@ class BudgetVerb : public Verb {
       if (b.requirements.empty()) tell("  {}\n", budget_verdict(s));
       for (const RequirementAnswer& r : b.requirements) {
         const std::string doubt = rule_doubt(s, r.level);
-        tell("  {}; by the classical rule {}, {}{}\n", requirement_sentence(s, r), budget_value(s, r.level.by_rule),
-             to_string(r.level.standing), doubt.empty() ? "" : ": " + doubt);
+        tell("  {}; by the classical rule {}, {}{}\n", requirement_sentence(s, r),
+             budget_value(s, r.level.by_rule, r.asked.unit), to_string(r.level.standing),
+             doubt.empty() ? "" : ": " + doubt);
       }
       std::size_t widest = 0;
       for (const ErrorReduction& r : b.reductions) widest = std::max(widest, r.name.size());

@@ -17,7 +17,7 @@ namespace {
 std::string value_text(const MatchStudy& s, double value) {
   if (!std::isfinite(value)) return "none";
   if (s.plan.objective.measure == Measure::free_flight_share) return fmt::format("{:.3g} %", 100.0 * value);
-  return readable(value, s.plan.objective.si_unit(s.study.index));
+  return readable_as(value, s.plan.objective.si_unit(s.study.index), written_unit(s.plan, s.plan.objective.measure));
 }
 
 DisplayUnit objective_unit(const MatchStudy& s) {
@@ -25,7 +25,7 @@ DisplayUnit objective_unit(const MatchStudy& s) {
   for (const MatchingVisit& v : s.result.visits)
     if (std::isfinite(v.objective)) most = std::max(most, std::abs(v.objective));
   if (s.plan.objective.measure == Measure::free_flight_share) return {"%", 100.0};
-  return display_unit(s.plan.objective.si_unit(s.study.index), most);
+  return display_unit_as(s.plan.objective.si_unit(s.study.index), most, written_unit(s.plan, s.plan.objective.measure));
 }
 
 DisplayUnit variable_unit(const DesignVariable& v) {
@@ -50,20 +50,6 @@ report::Table optimum_table(const MatchStudy& s) {
     table.rows.push_back({v.name(), readable_as(s.result.design[i], v.si_unit, v.unit), as_good,
                           readable_as(v.from, v.si_unit, v.unit) + " to " + readable_as(v.to, v.si_unit, v.unit),
                           s.result.at_bound[i] ? "yes" : "no"});
-  }
-  return table;
-}
-
-report::Table constraint_table(const MatchStudy& s) {
-  report::Table table{.title = "Constraints at the optimum",
-                      .columns = {{"of"}, {"value"}, {"at most"}, {"kept"}, {"active"}}};
-  for (std::size_t k = 0; k < s.plan.constraints.size() && k < s.result.constraint_values.size(); ++k) {
-    const MatchingConstraint& c = s.plan.constraints[k];
-    const std::string unit = c.measure.si_unit(s.study.index);
-    const double value = s.result.constraint_values[k];
-    table.rows.push_back({c.measure.title(s.study.index), readable_as(value, unit, c.unit),
-                          readable_limit(c.at_most, unit, c.unit), value <= c.at_most * (1 + 1e-6) ? "yes" : "no",
-                          s.result.active[k] ? "yes" : "no"});
   }
   return table;
 }
@@ -173,7 +159,7 @@ report::Chart settling_chart(const MatchStudy& s) {
 report::Chart front_chart(const MatchStudy& s) {
   double most = 0.0;
   for (const FrontPoint& p : s.result.front) most = std::max(most, p.index);
-  const DisplayUnit unit = display_unit(s.study.index.si_unit(), most);
+  const DisplayUnit unit = display_unit_as(s.study.index.si_unit(), most, written_unit(s.plan, Measure::index));
   report::Chart chart{
       .title = "Accuracy against stability",
       .caption = "Designs that no other one beats in both. Stability: the less time in free flight the steadier.",
@@ -195,12 +181,19 @@ report::Chart front_chart(const MatchStudy& s) {
 report::Table front_table(const MatchStudy& s) {
   report::Table table{.title = "The front", .columns = {{"design"}, {s.study.index.title()}, {"free flight"}}};
   for (const FrontPoint& p : s.result.front)
-    table.rows.push_back({design_text(s.plan, p.design), readable(p.index, s.study.index.si_unit()),
+    table.rows.push_back({design_text(s.plan, p.design),
+                          readable_as(p.index, s.study.index.si_unit(), written_unit(s.plan, Measure::index)),
                           readable_share(p.free_flight_share)});
   return table;
 }
 
 }  // namespace
+
+std::string written_unit(const MatchingPlan& plan, Measure measure) {
+  for (const MatchingConstraint& c : plan.constraints)
+    if (c.measure.measure == measure && !c.unit.empty()) return c.unit;
+  return "";
+}
 
 std::string design_text(const MatchingPlan& plan, const std::vector<double>& design) {
   std::string text;
@@ -213,8 +206,45 @@ std::string design_text(const MatchingPlan& plan, const std::vector<double>& des
 std::string objective_text(const MatchingPlan& plan, const IndexChoice& index, double value, double beside) {
   if (!std::isfinite(value)) return "nothing";
   if (plan.objective.measure == Measure::free_flight_share) return fmt::format("{:.4g} %", 100.0 * value);
-  const DisplayUnit unit = display_unit(plan.objective.si_unit(index), beside);
+  const DisplayUnit unit =
+      display_unit_as(plan.objective.si_unit(index), beside, written_unit(plan, plan.objective.measure));
   return fmt::format("{:.4g}{}{}", value * unit.per_si, unit.name.empty() ? "" : " ", unit.name);
+}
+
+std::string rung_of_optimum(const MatchStudy& s) {
+  return s.result.on_confirming_rung ? s.result.confirmation.front().rung : s.rung.name;
+}
+
+report::Table constraint_table(const MatchStudy& s) {
+  const MatchingResult& r = s.result;
+  // Where a descent went on there, the values are the confirmation's already.
+  const MatchingConfirmation* beside = r.confirmation.empty() || r.on_confirming_rung ? nullptr : &r.confirmation[0];
+  report::Table table{.title = "Constraints at the optimum", .columns = {{"of"}, {"value on " + rung_of_optimum(s)}}};
+  if (beside != nullptr) {
+    table.columns.push_back({"confirmed on " + beside->rung});
+    table.caption = fmt::format("Confirmed: by {} of the confirmation, which the search has not seen.",
+                                how_many(beside->samples, "run"));
+  }
+  for (const char* name : {"at most", "kept", "active"}) table.columns.push_back({name});
+  for (std::size_t k = 0; k < s.plan.constraints.size() && k < r.constraint_values.size(); ++k) {
+    const MatchingConstraint& c = s.plan.constraints[k];
+    const std::string unit = c.measure.si_unit(s.study.index);
+    const auto beyond = [&](double value) { return !(value <= c.at_most * (1 + 1e-6)); };
+    const double value = r.constraint_values[k];
+    std::vector<nlohmann::json> row = {c.measure.title(s.study.index), readable_as(value, unit, c.unit)};
+    std::string kept = beyond(value) ? "no" : "yes";
+    if (beside != nullptr) {
+      const double confirmed = beside->constraint_values.at(k);
+      row.emplace_back(readable_as(confirmed, unit, c.unit));
+      if (!std::isfinite(confirmed))
+        kept += ", not confirmed";
+      else if (beyond(confirmed) != beyond(value))
+        kept += beyond(confirmed) ? ", not as confirmed" : ", but as confirmed";
+    }
+    row.insert(row.end(), {readable_limit(c.at_most, unit, c.unit), kept, r.active[k] ? "yes" : "no"});
+    table.rows.push_back(std::move(row));
+  }
+  return table;
 }
 
 bool ends_at_nothing(const DesignVariable& v, double at) {
@@ -261,12 +291,13 @@ report::Document match_report(const MatchStudy& s) {
                                 "summary.json and evaluations.csv beside this file; evaluations.db holds every sample"};
   document.provenance.push_back({"Study hash", s.study.content_hash});
   if (s.result.design.empty()) return document;
-  document.facts = {
-      {.label = "Least " + s.plan.objective.title(s.study.index), .value = value_text(s, s.result.objective)},
-      {.label = "Designs computed",
-       .value = s.result.evaluations,
-       .note = s.result.reused > 0 ? fmt::format("and {} from an earlier run", s.result.reused) : ""},
-      {.label = "Samples per design", .value = s.plan.samples}};
+  document.facts = {{.label = "Least " + s.plan.objective.title(s.study.index),
+                     .value = value_text(s, s.result.objective),
+                     .note = "on the " + rung_of_optimum(s) + " rung"},
+                    {.label = "Designs computed",
+                     .value = s.result.evaluations,
+                     .note = s.result.reused > 0 ? fmt::format("and {} from an earlier run", s.result.reused) : ""},
+                    {.label = "Samples per design", .value = s.plan.samples}};
   for (std::size_t i = 0; i < s.plan.variables.size(); ++i)
     document.facts.push_back(
         {.label = s.plan.variables[i].name(),

@@ -26,6 +26,12 @@ struct MatchStudy {
 
 // "payload.mass = 5.1 kg, clearance.F1.radial = 0.1 mm".
 std::string design_text(const MatchingPlan& plan, const std::vector<double>& design);
+// In which unit the study writes a limit of this measure: "arcsec"; "": it has none.
+std::string written_unit(const MatchingPlan& plan, Measure measure);
+// The rung of the optimum's objective and constraints.
+std::string rung_of_optimum(const MatchStudy& study);
+// Each constraint's value at the optimum, by the rung that it is of, and the confirmation's beside it.
+report::Table constraint_table(const MatchStudy& study);
 // A value of the objective with four digits, in the unit in which `beside` is shown.
 std::string objective_text(const MatchingPlan& plan, const IndexChoice& index, double value, double beside);
 // Whether a design at the lower end of a variable's range is at 0 of what is never less, a mass or a size: nothing better lies beyond.

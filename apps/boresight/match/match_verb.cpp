@@ -181,7 +181,7 @@ class MatchVerb : public Verb {
     how.progress = [&](const MatchingResult& r) {
       std::string estimate = r.visits.back().stage;
       if (!r.design.empty())
-        estimate += "; best so far " + readable(r.objective, plan.objective.si_unit(study.index)) + " at " +
+        estimate += "; best so far " + objective_text(plan, study.index, r.objective, r.objective) + " at " +
                     design_text(plan, r.design);
       stage->update(std::min(designs, static_cast<double>(r.visits.size())), estimate);
     };
@@ -267,10 +267,14 @@ class MatchVerb : public Verb {
       json["as_good"] = {{"from", design_json(s.plan, r.as_good_from)}, {"to", design_json(s.plan, r.as_good_to)}};
     json["constraints"] = Json::array();
     for (std::size_t k = 0; k < r.constraint_values.size(); ++k)
-      json["constraints"].push_back({{"measure", s.plan.constraints[k].measure.key()},
-                                     {"value", number_json(r.constraint_values[k])},
-                                     {"at_most", s.plan.constraints[k].at_most},
-                                     {"active", static_cast<bool>(r.active[k])}});
+      json["constraints"].push_back(
+          {{"measure", s.plan.constraints[k].measure.key()},
+           {"value", number_json(r.constraint_values[k])},
+           {"rung", rung_of_optimum(s)},
+           {"confirmed", r.confirmation.empty() ? Json() : number_json(r.confirmation.front().constraint_values[k])},
+           {"confirmed_rung", r.confirmation.empty() ? Json() : Json(r.confirmation.front().rung)},
+           {"at_most", s.plan.constraints[k].at_most},
+           {"active", static_cast<bool>(r.active[k])}});
     json["descents"] = Json::array();
     for (const MatchingDescent& d : r.descents)
       json["descents"].push_back({{"from", d.from},

@@ -8,6 +8,7 @@
 
 #include "boresight_analyses/fidelities/fidelity_study.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
+#include "montecarlo/montecarlo_report.hpp"
 #include "montecarlo/several_rungs.hpp"
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
@@ -61,7 +62,7 @@ report::Chart agreement_chart(const SeveralRungs& s, const FidelityStudy& o) {
   for (const auto& values : o.pilot.values)
     for (const double v : values)
       if (std::isfinite(v)) most = std::max(most, std::abs(v));
-  const DisplayUnit unit = display_unit(s.question.study.index.si_unit(), most);
+  const DisplayUnit unit = display_unit_as(s.question.study.index.si_unit(), most, written_unit(s.question.plan));
   report::Chart chart{
       .title = "The pilot: every rung against " + names[0],
       .caption =
@@ -172,19 +173,19 @@ int run_fidelities(const SeveralRungs& s) {
       "first (boresight export DIR: CSV)",
       warnings);
   document.subtitle = "The mean of the " + s.question.study.index.title() + ", on several rungs at once";
-  const std::string sentence = fmt::format("Mean {} ± {}, unbiased for {}", readable(o.mean.value.value, unit),
-                                           readable(0.5 * (o.mean.value.high - o.mean.value.low), unit), top);
+  const auto shown = [&, written = written_unit(plan)](double value) { return readable_as(value, unit, written); };
+  const std::string sentence = fmt::format("Mean {} ± {}, unbiased for {}", shown(o.mean.value.value),
+                                           shown(0.5 * (o.mean.value.high - o.mean.value.low)), top);
   document.verdict = report::Verdict{report::Standing::neutral, sentence};
   if (requirement)
     document.verdict = report::Verdict{requirement->met ? report::Standing::good : report::Standing::bad,
                                        sentence + "; " + requirement_words(*requirement, top)};
-  document.facts = {
-      {"mean", readable(o.mean.value.value, unit), "", fmt::format("{:g} % confidence", 100.0 * plan.confidence)},
-      {"forecast gain", readable_number(o.plan.gain), "",
-       fmt::format("{:.3g} to {:.3g}", o.plan.gain_low, o.plan.gain_high)},
-      {"gain measured", readable_number(o.measured_gain()), "",
-       "variance of " + top + " alone for the same CPU, over this one's"},
-      {"CPU", readable(o.spent, "s"), "", "all samples, the pilot's included"}};
+  document.facts = {{"mean", shown(o.mean.value.value), "", fmt::format("{:g} % confidence", 100.0 * plan.confidence)},
+                    {"forecast gain", readable_number(o.plan.gain), "",
+                     fmt::format("{:.3g} to {:.3g}", o.plan.gain_low, o.plan.gain_high)},
+                    {"gain measured", readable_number(o.measured_gain()), "",
+                     "variance of " + top + " alone for the same CPU, over this one's"},
+                    {"CPU", readable(o.spent, "s"), "", "all samples, the pilot's included"}};
   document.sections.insert(
       document.sections.begin(),
       report::Section{.id = "rungs",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "montecarlo/montecarlo_report.hpp"
 #include "montecarlo/several_rungs.hpp"
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
@@ -21,7 +22,7 @@ namespace {
 report::Chart levels_chart(const SeveralRungs& s, const SubsetResult& subset, const std::string& rung) {
   double most = 0.0;
   for (const SubsetLevel& level : subset.levels) most = std::max(most, std::abs(level.threshold));
-  const DisplayUnit unit = display_unit(s.question.study.index.si_unit(), most);
+  const DisplayUnit unit = display_unit_as(s.question.study.index.si_unit(), most, written_unit(s.question.plan));
   report::Chart chart{.title = "How the excess was found",
                       .caption = "Subset simulation on the " + rung +
                                  " rung: each level starts from the worst tenth of the one before.",

@@ -55,8 +55,8 @@ TEST(AllocationPlan, TakesATolerancesTightestAndWidestInThisOrderAndAboveNothing
         << wrong;
 }
 
-// A share of what the drive does, though it is computed in the drive's radians.
-TEST(AllocationPlan, SaysTheToleranceOfAScaleInTheUnitOfAShare) {
+// Of a scale: a share of what the drive does, though it is computed in the drive's radians.
+TEST(AllocationPlan, SaysAToleranceInTheUnitThatItIsWrittenIn) {
   const MechanismDescription mechanism = read_mechanism(BORESIGHT_EXAMPLES "/3-rrcpr/tolerances.toml");
   const auto said_in = [&](const std::string& parameter, const std::string& tolerance) {
     Document document = Document::from_text(R"([allocate]
@@ -73,7 +73,8 @@ parameter = ")" + parameter + "\"\ntolerance = " +
   EXPECT_EQ(said_in("error.A1.scale", R"(["20 ppm", "400 ppm"])"), "ppm");
   EXPECT_EQ(said_in("error.A1.scale", "[2e-5, 4e-4]"), "ppm");
   EXPECT_EQ(said_in("error.A1.scale", R"(["0.002 %", "0.04 %"])"), "%");
-  EXPECT_EQ(said_in("error.A1.zero", R"(["2e-5 rad", "4e-4 rad"])"), "") << "as people read radians";
+  EXPECT_EQ(said_in("error.A1.zero", R"(["4 arcsec", "80 arcsec"])"), "arcsec");
+  EXPECT_EQ(said_in("error.A1.zero", R"(["2e-5 rad", "4e-4 rad"])"), "rad");
 }
 
 }  // namespace allocation_plan_test

@@ -369,6 +369,32 @@ TEST(Matching, AConfirmationThatBreaksALimitNamesIt) {
   EXPECT_FALSE(r.feasible);  // none keeps it there
 }
 
+// The worst of samples about a mean that both agree on: each rung has a value of its own.
+TEST(Matching, AConfirmationHasTheConstraintsValuesOfItsOwnRung) {
+  const Valley model(0.0, 0.0), wide(0.0, 0.01);
+  MatchingPlan p = plan(Over::mean);
+  p.map = p.front = 0;
+  MatchingConstraint limit{.measure = p.objective, .at_most = 20.0};
+  limit.measure.over = Over::worst;
+  p.constraints = {limit};
+  DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 40, .seed = 1});
+  DesignEvaluator confirm(wide, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
+  const MatchingResult agreed = run_matching(p, evaluator, &confirm, "exact", {});
+  ASSERT_TRUE(agreed.confirmation.at(0).agrees);
+  EXPECT_FALSE(agreed.on_confirming_rung);
+  EXPECT_NEAR(agreed.constraint_values.at(0), 1.0, 1e-6);
+  EXPECT_GT(agreed.confirmation[0].constraint_values.at(0), 1.004);
+  EXPECT_LT(agreed.confirmation[0].constraint_values[0], 1.006);
+
+  // Where a descent went on there, the optimum is of that rung, and so are its constraints.
+  const Valley elsewhere(1.5);
+  DesignEvaluator other(elsewhere, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
+  const MatchingResult moved = run_matching(p, evaluator, &other, "exact", {});
+  ASSERT_TRUE(moved.confirmation.at(0).went_on);
+  EXPECT_TRUE(moved.on_confirming_rung);
+  EXPECT_EQ(moved.constraint_values, moved.confirmation[0].constraint_values);
+}
+
 TEST(Matching, GoesOnOnTheRungThatDisagrees) {
   const Valley cheap, exact(1.5);
   const MatchingPlan p = plan(Over::mean);

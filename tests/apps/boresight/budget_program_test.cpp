@@ -79,6 +79,8 @@ TEST_F(BudgetProgram, SaysLimitsAndAllocationsAsTheyAreTyped) {
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_THAT(ended.out + ended.err,
               AllOf(HasSubstr("limit 3.00096 deg: met"), HasSubstr(" of 0.10096 mrad allocated")));
+  EXPECT_THAT(ended.out + ended.err, testing::ContainsRegex("base comes to [0-9.]+ mrad of 0.10096 mrad"))
+      << "what is held against it has its unit";
   EXPECT_THAT(text("out/report.html"), AllOf(HasSubstr("3.00096 deg"), HasSubstr("0.10096 mrad")));
 }
 

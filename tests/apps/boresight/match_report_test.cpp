@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "boresight/io/mechanism_file.hpp"
+
 namespace boresight::app {
 namespace match_report_test {
 
@@ -19,6 +21,59 @@ TEST(ObjectiveText, HasTheUnitOfWhatItIsHeldAgainst) {
   const IndexChoice turn{"boresight_error", "max"};
   EXPECT_EQ(objective_text(plan, turn, 0.0002094, 0.0002091), "0.2094 mrad");
   EXPECT_EQ(objective_text(plan, turn, 0.00009, 0.0002091), "0.09 mrad");
+}
+
+// A study that writes its limit in arcsec reads its answer in arcsec.
+TEST(ObjectiveText, HasTheUnitThatALimitOfTheSameMeasureIsWrittenIn) {
+  MatchingPlan plan;
+  plan.constraints.push_back({.measure = {.measure = Measure::peak_acceleration}, .at_most = 1.0, .unit = "m/s^2"});
+  const IndexChoice turn{"boresight_error", "max"};
+  EXPECT_EQ(written_unit(plan, Measure::index), "");
+  EXPECT_EQ(objective_text(plan, turn, 0.0002094, 0.0002091), "0.2094 mrad");
+  plan.constraints.push_back({.measure = {.over = Over::worst}, .at_most = 3e-4, .unit = "arcsec"});
+  EXPECT_EQ(written_unit(plan, Measure::index), "arcsec");
+  EXPECT_EQ(objective_text(plan, turn, 0.0002094, 0.0002091), "43.19 arcsec");
+}
+
+// 0.2 and 0.26 mrad are 41.3 and 53.6 arcsec; the limit is 50.
+TEST(ConstraintTable, SaysWhichRungEachValueIsOfAndWhatTheConfirmationFound) {
+  const Mechanism mechanism{read_mechanism(BORESIGHT_EXAMPLES "/3-rrcpr/3-rrcpr.toml")};
+  const Command command;
+  Study study;
+  study.index = {"boresight_error", "max"};
+  const RungChoice rung{.name = "quasistatic", .why = ""};
+  MatchingPlan plan;
+  plan.constraints.push_back({.measure = {}, .at_most = 50.0 / 206264.806, .unit = "arcsec"});
+  MatchingResult result;
+  result.constraint_values = {2.0e-4};
+  result.active = {false};
+  const MatchStudy matched{command, study, mechanism, rung, plan, result, {}, ""};
+  const auto columns = [&] {
+    std::vector<std::string> names;
+    for (const report::Column& column : constraint_table(matched).columns) names.push_back(column.label);
+    return names;
+  };
+  const auto cells = [&] {
+    std::vector<std::string> texts;
+    for (const nlohmann::json& cell : constraint_table(matched).rows.at(0)) texts.push_back(cell);
+    texts.erase(texts.begin());  // which constraint
+    return texts;
+  };
+  EXPECT_EQ(columns(), (std::vector<std::string>{"of", "value on quasistatic", "at most", "kept", "active"}));
+  EXPECT_EQ(cells(), (std::vector<std::string>{"41.3 arcsec", "50 arcsec", "yes", "no"}));
+
+  MatchingConfirmation& confirmation = result.confirmation.emplace_back();
+  confirmation.rung = "perturbation";
+  confirmation.constraint_values = {2.6e-4};
+  EXPECT_EQ(columns(), (std::vector<std::string>{"of", "value on quasistatic", "confirmed on perturbation", "at most",
+                                                 "kept", "active"}));
+  EXPECT_EQ(cells(),
+            (std::vector<std::string>{"41.3 arcsec", "53.6 arcsec", "50 arcsec", "yes, not as confirmed", "no"}));
+
+  result.on_confirming_rung = true;
+  result.constraint_values = {2.6e-4};
+  EXPECT_EQ(columns(), (std::vector<std::string>{"of", "value on perturbation", "at most", "kept", "active"}));
+  EXPECT_EQ(cells(), (std::vector<std::string>{"53.6 arcsec", "50 arcsec", "no", "no"}));
 }
 
 // A mass of 0 is at the end of its range, and nothing weighs less.

@@ -73,6 +73,23 @@ TEST_F(OptimiseProgram, MatchFindsThatTheTightestJointPointsBestAndSaysThatItIsA
       testing::ContainsRegex("gives [0-9.]+ (mm|µm|mrad|µrad) where the search had [0-9.]+ (mm|µm|mrad|µrad):"));
 }
 
+TEST_F(OptimiseProgram, MatchSaysWhichRungAConstraintIsOfInTheUnitOfTheLimit) {
+  write("study.toml", match() + "[[match.constraint]]\nmeasure = \"index\"\nat_most = \"900 um\"\n");
+  ASSERT_EQ(quick("match", "study.toml", "out", {"--rung", "quasistatic"}).status, 0);
+  const auto summary = json("out/summary.json");
+  const auto& constraint = summary["constraints"][0];
+  const bool moved = summary["confirmation"]["went_on"].get<bool>() || !summary["confirmation"]["agrees"].get<bool>();
+  EXPECT_EQ(constraint["rung"], moved ? "perturbation" : "quasistatic");
+  EXPECT_EQ(constraint["confirmed_rung"], "perturbation");
+  EXPECT_GT(constraint["confirmed"].get<double>(), 0.0);
+  if (!moved) {
+    EXPECT_EQ(constraint["confirmed"], summary["confirmation"]["value"]) << "the limit is of the objective itself";
+    EXPECT_NE(constraint["confirmed"], constraint["value"]);
+  }
+  EXPECT_THAT(summary["confirmation"]["sentence"].get<std::string>(),
+              testing::ContainsRegex("gives [0-9.]+ um where the search had [0-9.]+ um:"));
+}
+
 TEST_F(OptimiseProgram, MatchReusesEveryEvaluationOfAnEarlierRun) {
   write("study.toml", match());
   ASSERT_EQ(quick("match", "study.toml", "out", {"--rung", "quasistatic"}).status, 0);
@@ -179,6 +196,16 @@ tolerance = ["0.002 mm", "0.1 mm"]
   EXPECT_LT(tolerance, 0.1e-3);
   EXPECT_NEAR(summary["objective"].get<double>(), 1.0 + 0.2 / (tolerance * 1e3), 1e-9);
   EXPECT_GT(summary["last_micrometre"].get<double>(), 0.0);
+}
+
+TEST_F(OptimiseProgram, AllocateSaysTolerancesInTheUnitThatTheyAreWrittenIn) {
+  write("study.toml", allocate("0.1 mm", R"(
+cost = { law = "reciprocal", a = 1, b = 0.2, unit = "mm" }
+tolerance = ["2 um", "100 um"]
+)"));
+  const Ended ended = call({"allocate", "study.toml", "--set", "motion.duration=20ms", "--out", "out"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, testing::ContainsRegex("clearance.F1.radial +[0-9.]+ um +price"));
 }
 
 // An error of collimation that gets a tolerance t and one of elevation that scatters beside: hypot(CA, IE) at every instant, normal

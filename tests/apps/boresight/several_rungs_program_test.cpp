@@ -210,6 +210,15 @@ TEST_F(SeveralRungsProgram, FidelitiesSayThatTheirPlanLeavesTooFewSamplesToShowA
                                HasSubstr("without fidelities, judge it")));
 }
 
+TEST_F(SeveralRungsProgram, FidelitiesSayTheirMeanInTheUnitOfTheLimit) {
+  study(
+      "[montecarlo]\nrequirement = { limit = \"900 um\", probability = 0.9, confidence = 0.9 }\n"
+      "fidelities = { models = [\"quasistatic\", \"envelope\"], budget = \"0.3 s\", pilot = 10 }\n");
+  const Ended ended = ask("montecarlo");
+  ASSERT_LE(ended.status, 1) << ended.err;
+  EXPECT_THAT(ended.out, testing::ContainsRegex("Mean [0-9.]+ um"));
+}
+
 // The budget is divided by what samples are counted at: once more, and resumed, the same plan and the same numbers.
 TEST_F(SeveralRungsProgram, FidelitiesAndTailGiveTheSameNumbersAgain) {
   study(
