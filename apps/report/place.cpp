@@ -2,7 +2,16 @@
 
 #include <cmath>
 
+#include "boresight/keys/letters.hpp"
+
 namespace boresight::report::checks {
+
+std::string Place::found() const {
+  const std::string text = value.is_object()  ? "an object"
+                           : value.is_array() ? "an array of " + std::to_string(value.size())
+                                              : value.dump(-1, ' ', false, json::error_handler_t::replace);
+  return shortened(text, 60, 57);
+}
 
 std::string listed(Words words) {
   std::string text;

@@ -22,12 +22,7 @@ struct Place {
                                 found + ", expected " + expected);
   }
   // What stands here, short enough for one line of message.
-  std::string found() const {
-    std::string text = value.is_object()  ? "an object"
-                       : value.is_array() ? "an array of " + std::to_string(value.size())
-                                          : value.dump(-1, ' ', false, json::error_handler_t::replace);
-    return text.size() > 60 ? text.substr(0, 57) + "..." : text;
-  }
+  std::string found() const;
   bool has(const char* key) const { return value.contains(key); }
   Place at(const char* key) const { return {value.at(key), path.empty() ? key : path + "." + key}; }
   Place at(std::size_t i) const { return {value.at(i), path + "[" + std::to_string(i) + "]"}; }

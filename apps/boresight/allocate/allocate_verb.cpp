@@ -19,6 +19,7 @@
 #include "results/study_warnings.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
+#include "terminal/columns.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
 #include "terminal/readable.hpp"
@@ -374,10 +375,16 @@ class AllocateVerb : public Verb {
 
   static void print(const AllocateStudy& s, const OutputDirectory& out) {
     tell("{}\n", allocate_sentence(s));
+    constexpr std::size_t kName = 24, kOption = 12;  // at least
+    const std::size_t names = widest_of(s.result.shares, [](const AllocationShare& share) { return share.joint; });
+    std::size_t options = kOption;
+    for (std::size_t j = 0; j < s.result.shares.size(); ++j)
+      options = std::max(options, columns_in(option_text(s, s.result.chosen, j)));
     for (std::size_t j = 0; j < s.result.shares.size(); ++j) {
       const AllocationShare& share = s.result.shares[j];
-      tell("  {:<24} {:<12} price {:<6.4g} {:>5.1f} % of the cost, {:>5.1f} % of the error\n", share.joint,
-           option_text(s, s.result.chosen, j), share.price, 100.0 * share.cost_share, 100.0 * share.error_share);
+      tell("  {} {} price {:<6.4g} {:>5.1f} % of the cost, {:>5.1f} % of the error\n",
+           padded(share.joint, std::max(kName, names)), padded(option_text(s, s.result.chosen, j), options),
+           share.price, 100.0 * share.cost_share, 100.0 * share.error_share);
     }
     for (const Allocation* a : {&s.result.worst_case, &s.result.root_sum_square})
       if (!a->judged_by.empty())

@@ -22,6 +22,7 @@
 #include "results/study_warnings.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
+#include "terminal/columns.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
 #include "terminal/readable.hpp"
@@ -294,10 +295,9 @@ class BudgetVerb : public Verb {
              budget_value(s, r.level.by_rule, r.asked.unit), to_string(r.level.standing),
              doubt.empty() ? "" : ": " + doubt);
       }
-      std::size_t widest = 0;
-      for (const ErrorReduction& r : b.reductions) widest = std::max(widest, r.name.size());
+      const std::size_t widest = widest_of(b.reductions, [](const ErrorReduction& r) { return r.name; });
       for (const ErrorReduction& r : b.reductions)
-        tell("  {:<{}}  {:<20} {} {}{}\n", r.name, widest, r.action, r.gain() < 0.0 ? "adds" : "takes off",
+        tell("  {}  {:<20} {} {}{}\n", padded(r.name, widest), r.action, r.gain() < 0.0 ? "adds" : "takes off",
              budget_value(s, std::abs(r.gain())), gain_text(s, r));
     }
     tell_warnings(s.warnings, s.command, s.mechanism);

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <regex>
 
+#include "boresight/keys/letters.hpp"
 #include "report_parts/report_parts.hpp"
 #include "results/pilot_parts.hpp"
 #include "results/scatter_parts.hpp"
@@ -231,7 +232,7 @@ std::string short_text(const std::string& text) {
   }
   out.append(at, text.cend());
   constexpr std::size_t kLong = 160;
-  return out.size() > kLong ? out.substr(0, kLong) + " ..." : out;
+  return shortened(out, kLong, kLong, " ...");
 }
 
 report::Table input_table(const MonteCarloStudy& s) {

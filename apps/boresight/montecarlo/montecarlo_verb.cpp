@@ -6,6 +6,7 @@
 #include <fstream>
 #include <ostream>
 
+#include "boresight/keys/letters.hpp"
 #include "boresight_analyses/montecarlo/montecarlo.hpp"
 #include "boresight_analyses/montecarlo/montecarlo_keys.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
@@ -381,7 +382,7 @@ class MonteCarloVerb : public Verb {
       const RandomParameter& p = s.plan.inputs.parameters[i];
       json["random"].push_back({{"parameters", p.paths},
                                 {"unit", p.told_unit()},
-                                {"distribution", s.plan.inputs.text_of(i).substr(0, 400)},
+                                {"distribution", first_letters(s.plan.inputs.text_of(i), 400)},
                                 {"mean", number_json(p.distribution->mean())},
                                 {"sd", number_json(p.distribution->sd())}});
     }

@@ -17,6 +17,7 @@
 #include "command_line/declared_option.hpp"
 #include "command_line/verb.hpp"
 #include "results/summary.hpp"
+#include "terminal/columns.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
@@ -86,13 +87,12 @@ Json json_of(const Paths& paths) {
 }
 
 void print(const Paths& paths) {
-  std::size_t widest = 0;
-  for (const NumberPath& n : paths.numbers) widest = std::max(widest, n.path.size());
+  const std::size_t widest = widest_of(paths.numbers, [](const NumberPath& n) { return n.path; });
   tell(
       "--set and the [[random]], [[sweep.axis]] ... of studies take these numbers (a * stands for any name: "
       "clearance.*.radial):\n");
   for (const NumberPath& n : paths.numbers)
-    tell("  {:{}}  {}\n", n.path, widest,
+    tell("  {}  {}\n", padded(n.path, widest),
          !n.written.empty()
              ? n.written
              : fmt::format("{:.6g}{}", fmt::join(n.values, " and "), n.is_scale || n.unit == "1" ? "" : " " + n.unit));

@@ -7,13 +7,14 @@
 
 #include "reference/key_facts.hpp"
 #include "reference/topics.hpp"
+#include "terminal/columns.hpp"
 
 namespace boresight::app {
 namespace {
 
 constexpr std::size_t kWidth = 100;
 
-// Lines of at most kWidth characters, each after this many blanks.
+// Lines of at most kWidth columns, each after this many blanks.
 std::string wrapped(const std::string& text, std::size_t indent) {
   std::string lines, line;
   const auto end_line = [&] {
@@ -23,7 +24,7 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t blank = std::min(text.find(' ', begin), text.size());
     const std::string word = text.substr(begin, blank - begin);
-    if (!line.empty() && indent + line.size() + 1 + word.size() > kWidth) end_line();
+    if (!line.empty() && indent + columns_in(line) + 1 + columns_in(word) > kWidth) end_line();
     line += (line.empty() ? "" : " ") + word;
     begin = blank + 1;
   }

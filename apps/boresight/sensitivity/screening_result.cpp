@@ -10,6 +10,7 @@
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 #include "sensitivity/method_result.hpp"
+#include "terminal/columns.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -90,11 +91,10 @@ class ScreeningResult final : public MethodResult {
   void print(const std::string& rung) const override {
     tell("  index: {}; elementary effects over {} trajectories; {} rung\n", study_.index.title(), screening_.rows,
          rung);
-    std::size_t widest = 0;
-    for (const ScreenedGroup& g : screening_.groups) widest = std::max(widest, g.name.size());
+    const std::size_t widest = widest_of(screening_.groups, [](const ScreenedGroup& g) { return g.name; });
     for (const std::size_t k : order_) {
       const ScreenedGroup& g = screening_.groups[k];
-      tell("  {:<{}}  mu* {:>10} ({} to {})   {}{}\n", g.name, widest, value(g.mu_star.value), value(g.mu_star.low),
+      tell("  {}  mu* {:>10} ({} to {})   {}{}\n", padded(g.name, widest), value(g.mu_star.value), value(g.mu_star.low),
            value(g.mu_star.high), g.sigma ? "sigma " + value(g.sigma->value) : "", g.negligible ? "   negligible" : "");
     }
     if (screening_.negligible() > 0 && screening_.negligible() < screening_.groups.size())

@@ -9,6 +9,7 @@
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 #include "sensitivity/method_result.hpp"
+#include "terminal/columns.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -84,11 +85,10 @@ class ShapleyResult final : public MethodResult {
   void print(const std::string& rung) const override {
     tell("  index: {}; mean {}, standard deviation {}; {} rung\n", study_.index.title(),
          readable(division_.mean, study_.index.si_unit()), readable(division_.sd, study_.index.si_unit()), rung);
-    std::size_t widest = 0;
-    for (const ShapleyGroup& g : division_.groups) widest = std::max(widest, g.name.size());
+    const std::size_t widest = widest_of(division_.groups, [](const ShapleyGroup& g) { return g.name; });
     for (const std::size_t k : order_) {
       const ShapleyGroup& g = division_.groups[k];
-      tell("  {:<{}}  Shapley effect {:>6} ({} to {})\n", g.name, widest, share_text(g.effect.value),
+      tell("  {}  Shapley effect {:>6} ({} to {})\n", padded(g.name, widest), share_text(g.effect.value),
            share_text(g.effect.low), share_text(g.effect.high));
     }
   }

@@ -9,6 +9,7 @@
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 #include "sensitivity/method_result.hpp"
+#include "terminal/columns.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -132,10 +133,9 @@ class SobolResult final : public MethodResult {
   void print(const std::string& rung) const override {
     tell("  index: {}; mean {}, standard deviation {}; {} rung\n", study_.index.title(),
          readable(global_.mean, study_.index.si_unit()), readable(global_.sd, study_.index.si_unit()), rung);
-    std::size_t widest = 0;
-    for (const GroupSensitivity& g : global_.groups) widest = std::max(widest, g.name.size());
+    const std::size_t widest = widest_of(global_.groups, [](const GroupSensitivity& g) { return g.name; });
     for (const GroupSensitivity& g : global_.groups)
-      tell("  {:<{}}  first {:>6} ({} to {})   total {:>6} ({} to {})\n", g.name, widest, share_text(g.first.value),
+      tell("  {}  first {:>6} ({} to {})   total {:>6} ({} to {})\n", padded(g.name, widest), share_text(g.first.value),
            share_text(g.first.low), share_text(g.first.high), share_text(g.total.value), share_text(g.total.low),
            share_text(g.total.high));
   }

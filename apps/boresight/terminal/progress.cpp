@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terminal/columns.hpp"
 #include "terminal/embedding.hpp"
 #include "terminal/terminal.hpp"
 #include "terminal/work_line.hpp"
@@ -84,7 +85,7 @@ void Progress::update_from(double before, double done, const std::string& estima
   if (style_ == Style::terminal) clear_work_line();
   std::string line = progress_line(done, total_, unit_, elapsed, printable(estimate), before);
   if (style_ == Style::terminal) {
-    line.resize(std::min(line.size(), terminal_width(stream_) - 1));
+    line = first_columns(line, terminal_width(stream_) - 1);
     fmt::print(stream_, "\r\033[K{}", line);
     next_ = now + milliseconds(100);
   } else {

@@ -44,10 +44,10 @@ std::optional<std::string> turn_warning(const std::string& joint, const Clearanc
     std::snprintf(size, sizeof size, "a journal %.4g mm thick in a sleeve %.4g mm long", 2e3 * p.journal_radius,
                   1e3 * p.sleeve_length);
   std::snprintf(text, sizeof text,
-                "%s: every rung takes turns within a play to first order in its gaps; of %s, one as large as the play "
+                ": every rung takes turns within a play to first order in its gaps; of %s, one as large as the play "
                 "allows is off by %s%.2g %%",
-                joint.c_str(), size, missed < 1.0 ? "about " : "more than ", 100.0 * std::min(missed, 1.0));
-  return text;
+                size, missed < 1.0 ? "about " : "more than ", 100.0 * std::min(missed, 1.0));
+  return joint + text;
 }
 
 }  // namespace boresight

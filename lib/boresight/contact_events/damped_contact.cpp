@@ -96,12 +96,12 @@ std::string DampingWatch::warning() const {
   const MechanismDescription& m = mechanism_.description();
   char text[320];
   std::snprintf(text, sizeof text,
-                "%s: damping or friction of its contact sets in faster than steps of %.3g s follow (%.2g/s; RK4 "
+                ": damping or friction of its contact sets in faster than steps of %.3g s follow (%.2g/s; RK4 "
                 "follows %.2g/s), so that it "
                 "chatters from step to step: contact forces and impacts are not to be relied on; --integrator "
                 "rosenbrock follows it",
-                m.joints[m.clearances[fastest_.clearance].joint].name.c_str(), step_, fastest_.rate, limit_ / step_);
-  return text;
+                step_, fastest_.rate, limit_ / step_);
+  return m.joints[m.clearances[fastest_.clearance].joint].name + text;
 }
 
 }  // namespace boresight

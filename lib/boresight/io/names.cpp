@@ -4,6 +4,7 @@
 
 #include "boresight/io/mechanism_sections.hpp"
 #include "boresight/io/names_of.hpp"
+#include "boresight/keys/letters.hpp"
 #include "boresight/keys/physical_ranges.hpp"
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -32,16 +33,11 @@ int place(const std::vector<std::string>& names, const std::string& name) {
 
 namespace {
 
-constexpr std::ptrdiff_t kMostLetters = 100;
-
-// Of UTF-8: bytes that go on with a letter are none.
-std::ptrdiff_t letters(const std::string& text) {
-  return std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
-}
+constexpr std::size_t kMostLetters = 100;
 
 std::string read_name_without(const char* forbidden, const char* expected, Cursor& cursor, const std::string& key) {
   const std::string name = cursor.text(key);
-  bool good = !name.empty() && letters(name) <= kMostLetters && name.front() != ' ' && name.back() != ' ';
+  bool good = !name.empty() && letters_in(name) <= kMostLetters && name.front() != ' ' && name.back() != ' ';
   for (const char c : name) {
     good = good && static_cast<unsigned char>(c) >= 0x20 && c != 0x7f &&
            std::string_view(forbidden).find(c) == std::string_view::npos;

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <vector>
 
+#include "boresight/keys/letters.hpp"
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
@@ -213,14 +214,7 @@ double convert(std::string_view unit_text, const SiUnit& expected, const std::st
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMostLetters = 80, kShown = 60;
-  // Of UTF-8: bytes that go on with a letter begin none.
-  const auto begins = [&](std::size_t k) { return (static_cast<unsigned char>(text[k]) & 0xc0) != 0x80; };
-  std::size_t letters = 0, cut = text.size();
-  for (std::size_t k = 0; k < text.size(); ++k)
-    if (begins(k) && letters++ == kShown) cut = k;
-  std::string shown(letters > kMostLetters ? text.substr(0, cut) : text);
-  if (letters > kMostLetters) shown += "...";
-  return "\"" + shown + "\"";
+  return "\"" + shortened(text, kMostLetters, kShown) + "\"";
 }
 
 std::string expectation(const SiUnit& unit) {

@@ -10,11 +10,11 @@ void note_fast_impacts(RunResult& result) {
     char text[300];
     std::snprintf(
         text, sizeof text,
-        "%s: %lld of %lld impacts were faster than %.3g m/s, up to which the contact law is valid (Love 1944); the "
+        ": %lld of %lld impacts were faster than %.3g m/s, up to which the contact law is valid (Love 1944); the "
         "fastest was %.1f times that",
-        c.joint.c_str(), static_cast<long long>(c.impact_speed_above_validity), static_cast<long long>(c.impacts),
-        c.validity_speed, c.max_impact_speed / c.validity_speed);
-    result.warnings.push_back(text);
+        static_cast<long long>(c.impact_speed_above_validity), static_cast<long long>(c.impacts), c.validity_speed,
+        c.max_impact_speed / c.validity_speed);
+    result.warnings.push_back(c.joint + text);
   }
 }
 

@@ -11,13 +11,12 @@ namespace {
 std::string message(const Mechanism& mechanism, const StiffestContact& contact, double t, double h) {
   const std::string joint =
       mechanism.description().joints[mechanism.description().clearances[contact.clearance].joint].name;
-  char text[320];
-  std::snprintf(text, sizeof text,
-                "step too large: at t = %.6g s the %s contact of %s vibrates at %.4g rad/s, and RK4 with h = %.4g s is "
-                "unstable there; the largest stable step is %.3g s",
-                t, to_string(contact.place), joint.c_str(), contact.angular_frequency, h,
-                classical_rk4().real_limit / contact.angular_frequency);
-  return text;
+  char where[120], what[240];  // names are as long as they are
+  std::snprintf(where, sizeof where, "step too large: at t = %.6g s the %s contact of ", t, to_string(contact.place));
+  std::snprintf(what, sizeof what,
+                " vibrates at %.4g rad/s, and RK4 with h = %.4g s is unstable there; the largest stable step is %.3g s",
+                contact.angular_frequency, h, classical_rk4().real_limit / contact.angular_frequency);
+  return where + joint + what;
 }
 
 std::string message(const std::string& sign, double t, double h) {

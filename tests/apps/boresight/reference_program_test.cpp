@@ -1,6 +1,9 @@
 // What the program says of keys, paths and schemas.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "program.hpp"
@@ -73,6 +76,32 @@ TEST_F(ReferenceProgram, PathsAreThoseThatSettingsTake) {
   const Ended sticky = call({"paths", mechanism_, "--set", "clearance.F1.friction.law=lugre"});
   EXPECT_EQ(sticky.status, 0) << sticky.err;
   EXPECT_THAT(sticky.out, HasSubstr("clearance.F1.friction.coefficient"));
+}
+
+// The longest path is of a joint whose name takes twice as many bytes as letters.
+TEST_F(ReferenceProgram, PathsStandInColumnsWhateverLettersTheyHave) {
+  std::ifstream in(BORESIGHT_EXAMPLES "/four-bar/four-bar.toml");
+  std::string text((std::istreambuf_iterator<char>(in)), {}), name;
+  for (int k = 0; k < 30; ++k) name += "Ä";
+  for (std::size_t at = text.find("\"D\""); at != std::string::npos; at = text.find("\"D\"", at))
+    text.replace(at, 3, '"' + name + '"');
+  write("named.toml", text);
+  const Ended ended = call({"paths", "named.toml"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  std::istringstream lines(ended.out);
+  std::size_t column = 0, fewest_blanks = 1000;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("  ")) continue;
+    const std::size_t end = line.find(' ', 2), value = line.find_first_not_of(' ', end);
+    ASSERT_NE(value, std::string::npos) << line;
+    fewest_blanks = std::min(fewest_blanks, value - end);
+    const auto letters = static_cast<std::size_t>(std::count_if(
+        line.begin(), line.begin() + static_cast<std::ptrdiff_t>(value), [](char c) { return (c & 0xc0) != 0x80; }));
+    if (column == 0) column = letters;
+    EXPECT_EQ(letters, column) << line;
+  }
+  EXPECT_GT(column, 40u);
+  EXPECT_EQ(fewest_blanks, 2u) << "no wider than the longest asks for";
 }
 
 TEST_F(ReferenceProgram, EveryNumberListedMayBeSetToItsOwnValue) {

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <cstdio>
+#include <vector>
 
 #include "results/tables.hpp"
+#include "terminal/columns.hpp"
 
 namespace boresight::app {
 namespace terminal_test {
@@ -22,6 +24,18 @@ TEST(Terminal, ShowsControlCharactersAsTheirNumbers) {
             "\\x9b31m");  // no UTF-8
   EXPECT_EQ(printable("cut \xe2\x80"), "cut \\xe2\\x80");
   EXPECT_EQ(printable("0.231 mm, 22 µm ± 3 m/s²\n\tnext"), "0.231 mm, 22 µm ± 3 m/s²\n\tnext");
+}
+
+TEST(Columns, AreThoseThatALetterTakes) {
+  EXPECT_EQ(columns_in("Träger φ1"), 9u);
+  EXPECT_EQ(columns_in("軸受"), 4u);
+  EXPECT_EQ(columns_in("a\u0308b"), 2u);  // an accent behind its letter
+  EXPECT_EQ(padded("Träger", 8), "Träger  ");
+  EXPECT_EQ(padded("Träger", 3), "Träger");
+  EXPECT_EQ(first_columns("µµµµ", 3), "µµµ");
+  EXPECT_EQ(first_columns("軸受", 3), "軸");
+  const std::vector<std::string> names = {"Azimut", "Trägerφ"};
+  EXPECT_EQ(widest_of(names, [](const std::string& name) { return name; }), 7u);
 }
 
 TEST(Csv, ATextIsNoFormulaAndANumberStaysOne) {

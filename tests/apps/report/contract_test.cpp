@@ -33,6 +33,15 @@ std::string refusal(const json& document) {
   return "accepted";
 }
 
+TEST(Contract, ShowsTheBeginningOfALongTextByWholeLetters) {
+  std::string greek;
+  for (int k = 0; k < 80; ++k) greek += "φ";
+  const json document = {{"title", "T"}, {"sections", "x" + greek}};
+  // A quotation mark, the x and 55 letters.
+  EXPECT_NE(refusal(document).find("found \"x" + greek.substr(0, 110) + "..., expected"), std::string::npos)
+      << refusal(document);
+}
+
 TEST(Contract, AcceptsEveryKindOfItem) {
   EXPECT_EQ(refusal(sample::every_kind()), "accepted");
   EXPECT_EQ(refusal(sample::hostile()), "accepted");

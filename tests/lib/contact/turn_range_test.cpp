@@ -57,6 +57,16 @@ TEST(TurnRange, IsSaidOfShortWideOnesAlone) {
   EXPECT_FALSE(turn_warning("B", round, JointType::revolute, bearing));
 }
 
+TEST(TurnRange, IsSaidToItsEndOfAJointWithALongName) {
+  std::string name;
+  for (int k = 0; k < 100; ++k) name += "φ";
+  const auto warning =
+      turn_warning(name, free_play(GuideShape::rectangular), JointType::prismatic, slider(200e-3, 20e-3, 0.1e-3));
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(warning->substr(0, name.size() + 1), name + ":");
+  EXPECT_EQ(warning->back(), '%') << *warning;
+}
+
 TEST(TurnRange, IsNoneWhereNothingTurns) {
   ClearanceDescription parallel = free_play(GuideShape::rectangular);
   parallel.axes = JournalAxes::parallel;
