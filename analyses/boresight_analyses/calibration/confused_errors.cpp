@@ -167,6 +167,7 @@ std::vector<ConfusedErrors> confused_errors(const CalibrationProblem& problem, c
       KnownCombination combination;
       const double size = parameter(found.error).size;
       combination.si_unit = parameter(found.error).si_unit;
+      combination.told_unit = parameter(found.error).told_unit();
       combination.terms.emplace_back(errors[static_cast<std::size_t>(found.error)], 1.0);
       for (int f = 0; f < count; ++f)
         if (f != found.error && found.c[f] != 0.0)
@@ -195,9 +196,9 @@ std::string in_words(const KnownCombination& combination, const std::vector<Fitt
     char factor[40];
     std::snprintf(factor, sizeof factor, "%.3g", std::abs(coefficient));
     words += coefficient < 0.0 ? " - " : " + ";
-    const bool same = p.si_unit == combination.si_unit;
-    if (!same)
-      words += std::string(factor) + " " + combination.si_unit + "/" + p.si_unit + " ";
+    const std::string &over = combination.told_unit, under = p.told_unit();
+    if (over != under)
+      words += std::string(factor) + " " + (under == "1" ? over : over + "/" + under) + " ";
     else if (std::string(factor) != "1")
       words += std::string(factor) + " ";
     words += p.path;

@@ -29,8 +29,8 @@ inline constexpr double kUnknown = 0.35;
 
 struct KnownCombination {
   std::vector<std::pair<int, double>>
-      terms;            // parameter, coefficient [unit of the first over its own]; the first's is 1
-  std::string si_unit;  // of the first
+      terms;                       // parameter, coefficient [unit of the first over its own]; the first's is 1
+  std::string si_unit, told_unit;  // of the first
   double value = 0.0, standard_error = 0.0, low = 0.0, high = 0.0;
 };
 

@@ -78,6 +78,7 @@ FittedParameter fitted_parameter(const MechanismDescription& mechanism, const st
   p.place.emplace_back(mechanism, path, origin);
   p.si_unit = p.place.front().unit();
   p.written_unit = unit_to_say(mechanism, {path}, "");
+  p.is_scale = are_scales(mechanism, {path});
   p.start = start;
   if (path.starts_with("error.")) {
     p.transform = Transform::linear;

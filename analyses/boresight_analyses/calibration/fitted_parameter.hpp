@@ -18,6 +18,7 @@ struct FittedParameter {
   std::string path;
   std::string si_unit;
   std::string written_unit;  // as the study writes it, "arcsec"; "": as people read it
+  bool is_scale = false;     // of a drive: computed in the drive's unit, told as a share of what it does
   Transform transform = Transform::log;
   // SI; lower < start < upper, of log and logit above 0
   double lower = 0.0, upper = 0.0, start = 0.0;
@@ -28,6 +29,8 @@ struct FittedParameter {
 
   // Whether it is a standing error, error.NAME; else it belongs to a contact.
   bool is_error() const { return transform == Transform::linear; }
+  // Its unit as people and programs are told it: of a scale "1", as elsewhere (random_inputs.hpp).
+  std::string told_unit() const { return is_scale ? "1" : si_unit; }
   bool is_contact() const { return is_contact_path(path); }
   // Of u, what is known before: one over its variance; 0: nothing.
   double prior_information() const;

@@ -132,11 +132,9 @@ std::string posterior_toml(const CalibrationProblem& problem, const Inference& i
       // To the last digit, and a little less: what errors are together may be known ten thousand times as well as each of them, and the matrix
       // stays positive definite.
       constexpr double kOfRounding = 1e-12;
-      std::snprintf(text, sizeof text,
-                    "\n[[correlation]]\nparameters = [\"%s\", \"%s\"]\ncoefficient = %.17g\nmeasure = \"normal\"\n",
-                    inference.parameters[a].name.c_str(), inference.parameters[b].name.c_str(),
-                    (1.0 - kOfRounding) * rho);
-      out += text;
+      std::snprintf(text, sizeof text, "%.17g", (1.0 - kOfRounding) * rho);
+      out += "\n[[correlation]]\nparameters = [\"" + inference.parameters[a].name + "\", \"" +
+             inference.parameters[b].name + "\"]\ncoefficient = " + text + "\nmeasure = \"normal\"\n";
     }
   return out;
 }

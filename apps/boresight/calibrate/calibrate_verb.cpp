@@ -315,7 +315,7 @@ class CalibrateVerb : public Verb {
         for (const auto& [p, coefficient] : c.terms)
           terms[s.problem.parameters[static_cast<std::size_t>(p)].path] = number(coefficient);
         known.push_back({{"terms", terms},
-                         {"unit", c.si_unit},
+                         {"unit", c.told_unit},
                          {"value", number(c.value)},
                          {"standard_error", number(c.standard_error)},
                          {"low", number(c.low)},

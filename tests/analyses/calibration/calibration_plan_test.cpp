@@ -53,7 +53,9 @@ TEST(CalibrationPlan, TakesAPriorAsAShareOfWhatHasNoUnitToo) {
 TEST(CalibrationPlan, SaysAScaleWithoutAUnitInPartsPerMillion) {
   const MechanismDescription errors = read_mechanism(BORESIGHT_EXAMPLES "/3-rrcpr/tolerances.toml");
   EXPECT_EQ(fitted_parameter(errors, "error.A1.scale", 0.0).written_unit, "ppm");
+  EXPECT_EQ(fitted_parameter(errors, "error.A1.scale", 0.0).told_unit(), "1");
   EXPECT_EQ(fitted_parameter(errors, "error.A1.zero", 0.0).written_unit, "");
+  EXPECT_EQ(fitted_parameter(errors, "error.A1.zero", 0.0).told_unit(), "rad");
 }
 
 TEST(CalibrationPlan, RefusesACandidateThatSetsWhatIsFitted) {

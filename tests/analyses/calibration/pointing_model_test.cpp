@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <random>
 
+#include "boresight/io/expression.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/calibration/posterior.hpp"
 #include "boresight_analyses/random/random_inputs.hpp"
@@ -147,6 +148,49 @@ TEST(PointingModel, StarsAtOneElevationLeaveCombinationsThatAreNamed) {
   ASSERT_FALSE(result.verdict.empty());
   EXPECT_NE(result.verdict.front().find("move the boresight alike in these data: only error."), std::string::npos)
       << result.verdict.front();
+}
+
+// At one elevation an encoder's scale does what its zero does. The scale is a share, though it is computed in the radians of its drive.
+TEST(PointingModel, ACombinationThatBeginsWithAScaleIsAShare) {
+  MechanismDescription m = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/altaz-gimbal/altaz-gimbal.toml",
+                                          {{"motion.drives.elevation", "pi/4"}});
+  ErrorDescription scale = m.errors[1];  // IE
+  scale.name = "scale";
+  scale.law = parse_coordinate_function("q");
+  scale.value = 1e-4;
+  m.errors.push_back(scale);
+  const auto mechanism = std::make_shared<const Mechanism>(std::move(m));
+  for (const std::vector<std::string>& paths :
+       {std::vector<std::string>{"error.IE", "error.scale"}, {"error.scale", "error.IE"}}) {
+    const Bench bench(mechanism, paths, {6, 7, 8}, 50);
+    CalibrationProblem problem = bench.problem(std::vector<double>(3, 1.0 * kArcsec), 7);
+    const CalibrationResult result = calibrate(problem, {});
+    ASSERT_EQ(result.inference.confused.size(), 1u);
+    ASSERT_EQ(result.inference.confused.front().known.size(), 1u);
+    const KnownCombination& known = result.inference.confused.front().known.front();
+    const std::string first = paths[static_cast<std::size_t>(known.terms.front().first)];
+    EXPECT_EQ(known.told_unit, first == "error.scale" ? "1" : "rad");
+    const std::string words = in_words(known, problem.parameters);
+    EXPECT_NE(words.find(first == "error.scale" ? " 1/rad error.IE" : " rad error.scale"), std::string::npos) << words;
+  }
+}
+
+// Names may have a hundred letters, and letters several bytes.
+TEST(PointingModel, APosteriorOfErrorsWithLongNamesIsAWholeFile) {
+  MechanismDescription m = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/altaz-gimbal/altaz-gimbal.toml");
+  std::vector<std::string> paths;
+  for (const auto& [error, letter] : {std::pair{1, "ä"}, {2, "φ"}}) {
+    std::string name;
+    for (int k = 0; k < 100; ++k) name += letter;
+    m.errors[static_cast<std::size_t>(error)].name = name;
+    paths.push_back("error." + name);
+  }
+  const Bench bench(std::make_shared<const Mechanism>(std::move(m)), paths, {6, 7, 8}, 50);
+  CalibrationProblem problem = bench.problem(std::vector<double>(3, 1.0 * kArcsec), 7);
+  const CalibrationResult result = calibrate(problem, {});
+  Document document = Document::from_text(posterior_toml(problem, result.inference), "posterior.toml");
+  Cursor root(document);
+  EXPECT_EQ(read_random_inputs(root, bench.mechanism->description(), [](const Setting&) {}).size(), 2u);
 }
 
 // A budget that is fed with it meets the sum that was measured, and not what each error alone might be, nor nothing at all.
