@@ -327,7 +327,10 @@ void Allocating::search_rounds(const ConfirmingModel& confirm, const std::string
           last.met ? ", but no cheaper set can be shown" : "; nothing between it and the set confirmed before is left";
       last.agrees = last.met;
       // Under a factor that no samples asked for that is no proof.
-      if (further) result_.chosen.proven = false, result_.chosen.bound = 0.0;
+      if (further) {
+        result_.chosen.proven = false;
+        result_.chosen.bound = 0.0;
+      }
       break;
     }
     if (!a.feasible) break;
