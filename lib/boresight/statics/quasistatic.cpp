@@ -1,6 +1,8 @@
 #include "boresight/statics/quasistatic.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 
 #include "boresight/play/play_words.hpp"
@@ -8,6 +10,7 @@
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/scene/scene_rung.hpp"
 #include "boresight/statics/measured_by_dynamics.hpp"
+#include "boresight/statics/passing_rest.hpp"
 #include "boresight/statics/reaction_table.hpp"
 #include "boresight/statics/resting_contacts.hpp"
 #include "boresight/statics/tied_rest.hpp"
@@ -82,6 +85,10 @@ class Quasistatic final : public SceneRung {
     result.interrupted = interrupted;
     result.integrator = "none: one static balance an instant";
     result.contact = contacts.finish();
+    if (!interrupted)
+      for (const Passage& passage :
+           passages(reactions, result.index, [&](double t, const Balance*from) { return placed(balance_at(t, from)); }))
+        result.warnings.push_back(passage_sentence(passage));
     result.cost.steps = result.cost.evaluations = instants;
     return result;
   }
@@ -148,6 +155,41 @@ class Quasistatic final : public SceneRung {
     placed.error = pose_error({placed.body.p, Quat(placed.body.R)}, {ideal.p, Quat(ideal.R)}, mechanism().pointing());
     placed.balance = std::move(balance);
     return placed;
+  }
+
+  // The maxima that are of no place where the journals stay: an instant of the table to either side errors are smaller, and a rest is on
+  // another side of its play.
+  template <typename At>
+  std::vector<Passage> passages(const ReactionTable& reactions, const PointingIndices& index, const At& at) const {
+    std::vector<Passage> found;
+    for (int q = 0; q < kPointingQuantities; ++q) {
+      const auto quantity = static_cast<PointingQuantity>(q);
+      const Statistics& statistics = index.of(quantity);
+      const double t = statistics.time_of_max, earlier = t - reactions.spacing(), later = t + reactions.spacing();
+      if (earlier < 0.0 || later > mechanism().duration() || !(statistics.max > 0.0)) continue;
+      const Placed before = at(earlier, nullptr), after = at(later, &before.balance);
+      const double rise = rise_above(statistics.max, value_of(quantity, before.error), value_of(quantity, after.error));
+      if (rise == 0.0) continue;
+      Passage passage{t, {quantity}, {}, rise};
+      for (std::size_t c = 0; c < before.balance.rest.size(); ++c)
+        if (changes_sides(before.balance.rest[c], after.balance.rest[c]))
+          passage.joints.push_back(reactions.joint_name(static_cast<int>(c)));
+      if (passage.joints.empty()) continue;
+      const auto same = std::find_if(found.begin(), found.end(), [&](const Passage& p) {
+        return std::abs(p.t - t) <= reactions.spacing() && p.joints == passage.joints;
+      });
+      if (same == found.end()) {
+        found.push_back(std::move(passage));
+      } else {
+        same->quantities.push_back(quantity);
+        same->rise = std::max(same->rise, rise);
+      }
+    }
+    return found;
+  }
+  static double value_of(PointingQuantity quantity, const PoseError& error) {
+    return std::array{error.position, error.orientation, error.boresight,
+                      error.line_of_sight}[static_cast<std::size_t>(quantity)];
   }
 
   void record(const PreparedScene& prepared, const StandingDisplacement& standing, const Placed& placed,
