@@ -14,6 +14,12 @@ Key price_key() {
       .says("Its price, in any currency that all prices share.");
 }
 
+// How many at least hangs on the requirement.
+KeyBound some_samples() {
+  return {
+      .least = 1.0, .most = 1e6, .expected = "as many as the requirement takes at least (Wilks 1941), up to 1000000"};
+}
+
 // The names of cost_curve.hpp, each with its curve.
 std::vector<KeyChoice> described_cost_laws() {
   const std::vector<std::string> names = cost_law_names();
@@ -31,9 +37,11 @@ const KeyTable& allocate_keys() {
       .keys = {
           table("requirement", requirement_keys).says("What the index shall keep, and with which probability."),
           integer("samples")
+              .bounded(some_samples())
               .usually("1000, or four times as many as the requirement takes at least (Wilks 1941)")
               .says("Samples of the gaps, common to all sets that the search judges; up to 1000000."),
           integer("confirm")
+              .bounded(some_samples())
               .usually("120, or three times as many as the requirement takes at least")
               .says("Fresh samples that confirm a set on the next rung up; more where they could not show the "
                     "requirement."),
@@ -49,6 +57,7 @@ const KeyTable& allocate_keys() {
           integer("front").counting(0.0, 50.0).otherwise(p.front).says(
               "Points of the front of cost against accuracy; 0: none."),
           tables("fits", allocate_fit_keys)
+              .at_least_of(1, "at least one { fit = .., price = .. }")
               .sometimes("left out, each joint has its own")
               .says("Fits of all joints that have none of their own, such as [{ fit = \"20 H7/g6\", price = 12 }]."),
           tables("joint", allocate_joint_keys)
@@ -66,24 +75,29 @@ const KeyTable& allocate_joint_keys() {
   static const KeyTable table_of_keys{
       .name = "allocate.joint",
       .says = "A joint whose radial clearance is chosen, or several that take the same.",
-      .keys = {
-          parameter_key(
-              "The path of a radial clearance, clearance.JOINT.radial, or a list of them that take the same fit."),
-          tables("fits", allocate_fit_keys).sometimes(one).says("ISO 286 fits to choose from, of the joint's size."),
-          tables("processes", allocate_process_keys).sometimes(one).says("Manufacturing processes to choose from."),
-          table("cost", allocate_cost_keys)
-              .sometimes(one)
-              .says("What a tolerance costs, as a curve: it is then chosen continuously."),
-          quantities("tolerance", kLength)
-              .of_length({2}, "two lengths, the tightest and the widest tolerance")
-              .sometimes("needed with cost")
-              .says("The tightest and the widest tolerance that may be chosen."),
-          quantity("least", kLength)
-              .at_least(0.0, "0 or more")
-              .otherwise(AllocationEntry{}.least)
-              .says("Radial clearance at tolerance zero, with processes or cost: the gap lies between least and "
-                    "least + "
-                    "tolerance.")}};
+      .keys = {parameter_key(
+                   "The path of a radial clearance, clearance.JOINT.radial, or a list of them that take the same fit."),
+               tables("fits", allocate_fit_keys)
+                   .at_least_of(1, "at least one { fit = .., price = .. }")
+                   .sometimes(one)
+                   .says("ISO 286 fits to choose from, of the joint's size."),
+               tables("processes", allocate_process_keys)
+                   .at_least_of(1, "at least one { name = .., tolerance = .., price = .. }")
+                   .sometimes(one)
+                   .says("Manufacturing processes to choose from."),
+               table("cost", allocate_cost_keys)
+                   .sometimes(one)
+                   .says("What a tolerance costs, as a curve: it is then chosen continuously."),
+               quantities("tolerance", kLength)
+                   .of_length({2}, "two lengths, the tightest and the widest tolerance")
+                   .sometimes("needed with cost")
+                   .says("The tightest and the widest tolerance that may be chosen."),
+               quantity("least", kLength)
+                   .at_least(0.0, "0 or more")
+                   .otherwise(AllocationEntry{}.least)
+                   .says("Radial clearance at tolerance zero, with processes or cost: the gap lies between least and "
+                         "least + "
+                         "tolerance.")}};
   return table_of_keys;
 }
 
@@ -99,6 +113,7 @@ const KeyTable& allocate_error_keys() {
           parameter_key("The path of an error, error.NAME, or a list of them: each gets a tolerance of its own, from "
                         "the same processes or the same cost."),
           tables("processes", allocate_error_process_keys)
+              .at_least_of(1, "at least one { name = .., tolerance = .., price = .. }")
               .sometimes(one)
               .says("Manufacturing processes, or grades, to choose from."),
           table("cost", allocate_cost_keys)
@@ -113,12 +128,13 @@ const KeyTable& allocate_error_keys() {
 
 const KeyTable& allocate_error_process_keys() {
   using namespace keys;
-  static const KeyTable table_of_keys{
-      .name = "allocate.error.processes",
-      .says = "A manufacturing process or a grade, its tolerance and its price.",
-      .keys = {text("name").says("Its name, such as \"ground\"."),
-               value("tolerance", "the error's").says("Width of the zone that the error lies in, more than 0."),
-               price_key()}};
+  static const KeyTable table_of_keys{.name = "allocate.error.processes",
+                                      .says = "A manufacturing process or a grade, its tolerance and its price.",
+                                      .keys = {text("name").filled("a name").says("Its name, such as \"ground\"."),
+                                               value("tolerance", "the error's")
+                                                   .above(0.0, "more than 0")
+                                                   .says("Width of the zone that the error lies in, more than 0."),
+                                               price_key()}};
   return table_of_keys;
 }
 
@@ -136,7 +152,7 @@ const KeyTable& allocate_process_keys() {
   using namespace keys;
   static const KeyTable table_of_keys{.name = "allocate.joint.processes",
                                       .says = "A manufacturing process, its tolerance and its price.",
-                                      .keys = {text("name").says("Its name, such as \"reamed\"."),
+                                      .keys = {text("name").filled("a name").says("Its name, such as \"reamed\"."),
                                                quantity("tolerance", kLength)
                                                    .above(0.0, "more than 0")
                                                    .says("Width of the zone that the radial clearance lies in."),

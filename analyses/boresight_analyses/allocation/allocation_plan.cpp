@@ -35,7 +35,6 @@ std::vector<AllocationOption> read_fits(Cursor& table, ZoneLaw law, const std::v
     options.push_back(option);
     entry.finish();
   }
-  if (options.empty()) table.fail("fits", "at least one { fit = .., price = .. }");
   return options;
 }
 
@@ -45,15 +44,12 @@ std::vector<AllocationOption> read_processes(Cursor& table, const AllocationEntr
   for (Cursor& entry : table.tables("processes")) {
     entry.only(of.is_error ? allocate_error_process_keys() : allocate_process_keys());
     const double tolerance = of.is_error ? entry.value("tolerance", unit) : entry.quantity("tolerance");
-    entry.require(tolerance > 0.0, "tolerance", "more than 0");
     const std::string name = entry.text("name");
-    entry.require(!name.empty(), "name", "a name");
     for (const AllocationOption& other : options)
       if (other.name == name) entry.fail_found("name", in_quotes(name) + " a second time", "a name of its own");
     options.push_back({name, entry.number("price"), of.zone(tolerance, law)});
     entry.finish();
   }
-  if (options.empty()) table.fail("processes", "at least one { name = .., tolerance = .., price = .. }");
   return options;
 }
 
@@ -114,7 +110,6 @@ AllocationEntry read_joint(Cursor& entry, const std::vector<AllocationOption>& c
   entry.only(allocate_joint_keys());
   AllocationEntry joint;
   joint.paths = entry.one_or_texts("parameter");
-  entry.require(!joint.paths.empty(), "parameter", "the path of a radial clearance, or a list of them");
   std::vector<JournalSize> journals;
   for (const std::string& path : joint.paths) {
     joint.places.emplace_back(mechanism, path, entry.origin("parameter"));
@@ -155,7 +150,6 @@ std::vector<AllocationEntry> read_errors_of(Cursor& table, ZoneLaw law, const Me
                                             const std::function<void(const Setting&)>& accepts) {
   table.only(allocate_error_keys());
   const std::vector<std::string> paths = table.one_or_texts("parameter");
-  table.require(!paths.empty(), "parameter", "the path of an error, error.NAME, or a list of them");
   if (table.has("processes") == table.has("cost")) table.fail("processes", "one of processes and cost");
   if (table.has("tolerance") && !table.has("cost")) table.fail("tolerance", "tolerance with cost only");
   std::vector<AllocationEntry> entries;

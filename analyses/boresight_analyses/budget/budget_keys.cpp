@@ -32,6 +32,7 @@ const KeyTable& budget_keys() {
               .otherwise(static_cast<double>(p.members))
               .says("Members of the ensemble: samples of what [[random]] scatters, each with its own external errors."),
           integer("attribution")
+              .at_least(2.0, "2 to the number of members")
               .usually("24, or all members where these are fewer")
               .says("How many members are run again with each group held and each clearance halved, to share the error "
                     "out; from 2 to members."),
@@ -108,9 +109,14 @@ const KeyTable& budget_requirement_keys() {
                    .sometimes("needed unless there are exposures")
                    .says("What the error shall not exceed."),
                quantities("exposures", kDurationRange)
+                   .at_least_of(1, "at least one")
                    .sometimes("with index = \"RPE\" only; left out, the budget's window")
                    .says("Jitter by exposure time: windows of its own, over each of which RPE keeps its own limit."),
-               values("limits", "the index").sometimes("with exposures only").says("One limit for each exposure."),
+               values("limits", "the index")
+                   .above(0.0, "limits above zero")
+                   .at_least_of(1, "one for each exposure")
+                   .sometimes("with exposures only")
+                   .says("One limit for each exposure."),
                number("probability")
                    .share()
                    .otherwise(r.probability)
@@ -132,6 +138,7 @@ const KeyTable& budget_correlation_keys() {
           "distribution, or spectrum.",
       .keys = {texts("contributors")
                    .of_length({2}, "two contributors")
+                   .all_different()
                    .says("Their names: two biases or drifts, two noises of class random, or two by their spectra."),
                number("coefficient")
                    .inside_of(-1.0, 1.0, "more than -1 and less than 1")
@@ -157,9 +164,10 @@ const KeyTable& budget_part_keys() {
       .says =
           "A sub-budget. It is rolled up in the index, axis, interpretation and probability of the first requirement, "
           "its errors added in time.",
-      .keys = {text("name").says("Its name."),
+      .keys = {text("name").filled("a name").says("Its name."),
                text("within").usually("the whole budget").says("The part that it belongs to."),
                texts("contributors")
+                   .all_different()
                    .sometimes("left out, it holds what the parts within it hold")
                    .says("The names of its own contributors; none is in two parts."),
                boolean("mechanism", BudgetPart{}.mechanism)
@@ -183,7 +191,7 @@ const KeyTable& budget_contributor_keys() {
           "standing error of the "
           "mechanism over time: factor times course plus value, by its column of influence at the commanded pose.",
       .keys = {
-          text("name").says("Its name."),
+          text("name").filled("a name").says("Its name."),
           choice("class",
                  std::vector<KeyChoice>{{to_string(ContributorClass::bias), "one value for a member, all the time"},
                                         {to_string(ContributorClass::random), "noise of first order"},
@@ -218,13 +226,16 @@ const KeyTable& budget_contributor_keys() {
           quantity_of("value", "the index, of a drift per time; of a standing error its own")
               .sometimes(one)
               .says("The same value in all members."),
-          texts("axes")
+          choices("axes", {"x", "y", "z"}, "an axis of the error")
+              .at_least_of(1, "at least one axis")
+              .all_different()
               .sometimes("left out, all axes")
               .says("The axes that it acts on: \"x\", \"y\", and where there is one, or with frame, \"z\"."),
           table("frame", budget_frame_keys)
               .sometimes("left out, the axes of the error; not with error")
               .says("Axes of its own that it is given in, such as those of a sensor's head."),
           numbers("axis_correlation")
+              .of_length({1, 3}, "one coefficient of two axes, three of three")
               .sometimes("left out, its axes are independent; not with period, measured or error")
               .says("How its axes depend on each other: of two axes one coefficient, of three [xy, xz, yz]."),
           time_key("period")

@@ -64,14 +64,12 @@ std::vector<BudgetRequirement> read_requirement(Cursor& table, const BudgetPlan&
   if (jitter) {
     const std::vector<double> exposures = table.quantities("exposures"), limits = table.values("limits", unit);
     r.unit = table.unit_as_written("limits");
-    table.require(!exposures.empty(), "exposures", "at least one");
     if (limits.size() != exposures.size())
       table.fail_found("limits", std::to_string(limits.size()) + " of them",
                        std::to_string(exposures.size()) + ", one for each exposure");
     for (std::size_t k = 0; k < exposures.size(); ++k) {
       r.exposure = exposures[k];
       r.limit = limits[k];
-      table.require(r.limit > 0.0, "limits", "limits above zero");
       table.require(r.exposure >= 2.0 * plan.sampling, "exposures", "at least two samples of the history each");
       const std::string needed = plan.windows_of(r).missing_for(r.index, plan.duration);
       table.require(needed.empty(), "exposures", needed);

@@ -43,8 +43,10 @@ const KeyTable& sensitivity_keys() {
 }
 
 std::vector<Key> coefficients() {
-  return {keys::numbers("numerator").says("Coefficients by falling powers of s, in SI units."),
-          keys::numbers("denominator").says("The same below the line; no power of s above stands higher.")};
+  return {keys::numbers("numerator").with_some_not_zero().says("Coefficients by falling powers of s, in SI units."),
+          keys::numbers("denominator")
+              .with_some_not_zero()
+              .says("The same below the line; no power of s above stands higher.")};
 }
 
 const KeyTable& ratio_keys() {

@@ -83,8 +83,7 @@ ErrorCourse read_error_course(Cursor& table, const BudgetPlan& plan, const Mecha
 std::vector<std::size_t> read_axes(Cursor& table, const BudgetAxes& axes, const DistributionPtr& parameter,
                                    Contributor& c) {
   const std::vector<std::string> own = table.has("frame") ? std::vector<std::string>{"x", "y", "z"} : axes.names;
-  const std::vector<std::string> named = table.has("axes") ? table.texts("axes") : own;
-  table.require(!named.empty(), "axes", "at least one axis");
+  const std::vector<std::string> named = table.has("axes") ? table.choices("axes") : own;
   std::vector<std::size_t> order;
   for (const std::string& name : named) {
     const auto at = std::find(own.begin(), own.end(), name);
@@ -150,7 +149,6 @@ Contributor read_any_size(Cursor& table, const BudgetPlan& plan, PointingQuantit
   table.only(budget_contributor_keys());
   Contributor c;
   c.name = table.text("name");
-  table.require(!c.name.empty(), "name", "a name");
   table.rename("budget.contributor." + c.name);
   if (table.has("error")) {
     c.of_error = read_error_course(table, plan, mechanism);

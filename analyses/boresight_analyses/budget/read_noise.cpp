@@ -45,11 +45,7 @@ void read_table(Cursor table, const SiUnit& unit, PowerDensity& density) {
 
 TransferFunction read_ratio(Cursor& table) {
   std::vector<double> numerator = table.numbers("numerator"), denominator = table.numbers("denominator");
-  for (std::vector<double>* p : {&numerator, &denominator}) {
-    table.require(std::any_of(p->begin(), p->end(), [](double c) { return c != 0.0; }),
-                  p == &numerator ? "numerator" : "denominator", "a coefficient that is not zero");
-    std::reverse(p->begin(), p->end());
-  }
+  for (std::vector<double>* p : {&numerator, &denominator}) std::reverse(p->begin(), p->end());
   try {
     return TransferFunction(numerator, denominator);
   } catch (const std::invalid_argument&) {

@@ -36,7 +36,6 @@ void read_parts(Cursor& budget, BudgetPlan& plan, const SiUnit& unit) {
     table.only(budget_part_keys());
     BudgetPart part;
     part.name = table.text("name");
-    table.require(!part.name.empty(), "name", "a name");
     if (std::find(names.begin(), names.end(), part.name) != names.end())
       table.fail_found("name", "\"" + part.name + "\" a second time", "each part once");
     names.push_back(part.name);

@@ -99,8 +99,12 @@ const KeyTable& calibrate_keys() {
           table("noise", calibrate_noise_keys)
               .sometimes("left out, all noise is estimated")
               .says("Known noise of single channels."),
-          tables("parameter", calibrate_parameter_keys).says("What is fitted, one table each; at least one."),
-          tables("run", calibrate_run_keys).says("The runs that were measured, one table each; at least one."),
+          tables("parameter", calibrate_parameter_keys)
+              .at_least_of(1, "at least one [[calibrate.parameter]]")
+              .says("What is fitted, one table each; at least one."),
+          tables("run", calibrate_run_keys)
+              .at_least_of(1, "at least one [[calibrate.run]]")
+              .says("The runs that were measured, one table each; at least one."),
           tables("candidate", calibrate_candidate_keys)
               .sometimes("left out, none is judged")
               .says(
@@ -211,6 +215,7 @@ const KeyTable& calibrate_run_keys() {
       .says = "A run that was measured.",
       .keys = {
           text("data")
+              .filled("the path of a file")
               .sometimes("left out where sensors have files of their own")
               .says("The CSV file of its readings, with commas between its columns, or with semicolons or tabs and "
                     "decimal commas or points. A relative name is taken from the study file's folder."),
@@ -218,7 +223,10 @@ const KeyTable& calibrate_run_keys() {
               .sometimes("left out, data is the one file of the run")
               .says("Sensors with files of their own, as their software writes them: columns, units and times are "
                     "mapped."),
-          text("name").usually("the name of the data file").says("What reports call the run."),
+          text("name")
+              .filled("a name, or no key at all")
+              .usually("the name of the data file")
+              .says("What reports call the run."),
           settings_key("The mechanism's settings in this run, as --set takes them: [\"motion.drives.A=2*pi*t\"].")}};
   return table_of_keys;
 }
@@ -228,7 +236,7 @@ const KeyTable& calibrate_candidate_keys() {
   static const KeyTable table_of_keys{
       .name = "calibrate.candidate",
       .says = "A test that could be made next.",
-      .keys = {text("name").says("What reports call the test."),
+      .keys = {text("name").filled("a name").says("What reports call the test."),
                settings_key("The mechanism's settings in this test, as --set takes them.")}};
   return table_of_keys;
 }

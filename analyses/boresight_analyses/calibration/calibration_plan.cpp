@@ -87,14 +87,12 @@ PlannedRun read_run(Cursor& run, const std::string& study_file) {
   std::string data;
   if (planned.sensors.empty()) {
     data = run.text("data");
-    run.require(!data.empty(), "data", "the path of a file");
     planned.data = beside(study_file, data);
     planned.origin = run.origin("data");
   } else if (run.has("data")) {
     run.fail_found("data", "data beside sensors", "data, or [[calibrate.run.sensor]] tables");
   }
   planned.name = run.text("name", planned.sensors.empty() ? data : planned.sensors.front().data);
-  run.require(!planned.name.empty(), "name", "a name, or no key at all");
   planned.settings = settings_of(run);
   run.finish();
   return planned;
@@ -258,7 +256,6 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
     // Data are made with the mechanism's own values: what a fit has no use for calibration_problem() says.
     fitted.take(parameter.origin("path"), parameter.path("path"), {plan.parameters.back().path}, OwnValue::read);
   }
-  table.require(!plan.parameters.empty(), "parameter", "at least one [[calibrate.parameter]]");
   for (Cursor& run : table.tables("run")) {
     run.only(calibrate_run_keys());
     plan.runs.push_back(read_run(run, study.file));
@@ -266,11 +263,9 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
       if (const std::string both = also_fitted(mechanism, fitted, setting.path); !both.empty())
         run.fail_found("set", "\"" + both + "\", which is fitted", "settings of what is known");
   }
-  table.require(!plan.runs.empty(), "run", "at least one [[calibrate.run]]");
   for (Cursor& candidate : table.tables("candidate")) {
     candidate.only(calibrate_candidate_keys());
     const std::string name = candidate.text("name");
-    candidate.require(!name.empty(), "name", "a name");
     plan.candidates.push_back({name, "", settings_of(candidate), candidate.origin()});
     for (const Setting& setting : plan.candidates.back().settings)
       if (const std::string both = also_fitted(mechanism, fitted, setting.path); !both.empty())

@@ -53,9 +53,10 @@ const KeyTable& calibrate_sensor_keys() {
       .name = "calibrate.run.sensor",
       .says = "One of several sensors of a run, or one whose software writes other tables than ours.",
       .keys = {
-          text("data").says(
-              "The file of its readings: columns separated by commas, semicolons or tabs. A relative name is "
-              "taken from the study file's folder."),
+          text("data")
+              .filled("the path of a file")
+              .says("The file of its readings: columns separated by commas, semicolons or tabs. A relative name is "
+                    "taken from the study file's folder."),
           integer("header")
               .counting(1.0, 1e6)
               .sometimes("left out, the first line that is neither empty nor a comment")
@@ -103,11 +104,14 @@ const KeyTable& sensor_units_keys() {
 }
 
 const KeyTable& sensor_factors_keys() {
-  static const KeyTable table_of_keys = by_channel(
-      "calibrate.run.sensor.factors", "What each channel's readings are multiplied by.",
-      [](const ChannelName& channel) {
-        return keys::number(channel.name).otherwise(1.0).says(std::string("Factor of ") + channel.title + ".");
-      });
+  static const KeyTable table_of_keys =
+      by_channel("calibrate.run.sensor.factors", "What each channel's readings are multiplied by.",
+                 [](const ChannelName& channel) {
+                   return keys::number(channel.name)
+                       .except({0.0}, "a factor that is not 0")
+                       .otherwise(1.0)
+                       .says(std::string("Factor of ") + channel.title + ".");
+                 });
   return table_of_keys;
 }
 
@@ -115,7 +119,6 @@ PlannedSensor read_sensor(Cursor table, const std::string& study_file) {
   table.only(calibrate_sensor_keys());
   PlannedSensor sensor;
   const std::string data = table.text("data");
-  table.require(!data.empty(), "data", "the path of a file");
   sensor.data = beside(study_file, data);
   sensor.origin = table.origin("data");
   ReadAs& as = sensor.as;
@@ -154,7 +157,6 @@ PlannedSensor read_sensor(Cursor table, const std::string& study_file) {
     factors.only(sensor_factors_keys());
     for (const std::string& name : factors.keys()) {
       of(factors, name).factor = factors.number(name);
-      if (factors.number(name) == 0.0) factors.fail(name, "a factor that is not 0");
     }
     factors.finish();
   }

@@ -65,6 +65,7 @@ const KeyTable& match_keys() {
                     "index over contact numbers."),
           integer("map")
               .counting(0.0, 200.0)
+              .except({1.0}, "0, or 2 to 200")
               .otherwise(p.map)
               .says("Points along each side of the objective's map in the report; 0: no map."),
           integer("front")
@@ -74,7 +75,9 @@ const KeyTable& match_keys() {
           integer("confirm").counting(2.0, 1e6).otherwise(64.0).says(
               "Samples, with another seed, that confirm the winner on the next rung up; where parameters scatter "
               "only."),
-          tables("variable", design_variable_keys).says("What may be chosen, one table each; at least one."),
+          tables("variable", design_variable_keys)
+              .at_least_of(1, "at least one [[match.variable]] table: what may be chosen")
+              .says("What may be chosen, one table each; at least one."),
           tables("constraint", match_constraint_keys)
               .sometimes("left out, the bounds of the variables are the only limits")
               .says("Limits on the index or on other measures, one table each.")}};

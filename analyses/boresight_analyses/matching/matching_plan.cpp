@@ -89,7 +89,6 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
   plan.global = table.choice("global");
   plan.local = table.choice("local");
   plan.map = count(table, "map");
-  if (plan.map == 1) table.fail("map", "0, or 2 to 200");
   plan.front = count(table, "front");
 
   VariedPaths taken(mechanism);
@@ -97,7 +96,6 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
     plan.variables.push_back(read_design_variable(entry, mechanism));
     taken.take(entry.origin("parameter"), entry.path("parameter"), plan.variables.back().paths);
   }
-  if (plan.variables.empty()) table.fail("variable", "at least one [[match.variable]] table: what may be chosen");
   std::vector<BoxSide> sides;
   for (const DesignVariable& v : plan.variables) sides.push_back(v.side());
   check_corners(sides, accepts, accepts_all);

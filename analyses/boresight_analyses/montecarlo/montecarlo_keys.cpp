@@ -110,6 +110,8 @@ const KeyTable& fidelities_keys() {
       .name = "montecarlo.fidelities",
       .says = "The mean for the first rung from few samples there and many on cheaper ones.",
       .keys = {choices("models", rung_names(), "the name of a rung")
+                   .at_least_of(2, "two rungs or more, the one to be unbiased for first")
+                   .all_different()
                    .says("Two rungs or more; the mean is unbiased for the first one."),
                budget_key("CPU time of everything, the pilot included."),
                pilot_key(static_cast<double>(q.pilot),

@@ -39,7 +39,6 @@ FidelityQuestion read_fidelities(Cursor table) {
         q.models.begin() + static_cast<std::ptrdiff_t>(i))
       table.fail_found("models", "\"" + name + "\" a second time", "each rung once");
   }
-  table.require(q.models.size() >= 2, "models", "two rungs or more, the one to be unbiased for first");
   read_budget(table, q.budget, q.pilot);
   table.finish();
   return q;

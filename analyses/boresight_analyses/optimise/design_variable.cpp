@@ -22,7 +22,6 @@ DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& m
   entry.only(design_variable_keys());
   DesignVariable v;
   v.paths = entry.one_or_texts("parameter");
-  entry.require(!v.paths.empty(), "parameter", "a parameter's path, or a list of them");
   for (const std::string& path : v.paths) {
     v.places.emplace_back(mechanism, path, entry.origin("parameter"));
     if (v.si_unit.empty()) v.si_unit = v.places.back().unit();

@@ -71,13 +71,14 @@ const KeyTable& weibull_keys() {
 
 const KeyTable& discrete_keys() {
   using namespace keys;
-  static const KeyTable table_of_keys{.name = "distribution.discrete",
-                                      .says = "Some values, each with a probability.",
-                                      .keys = {values("values", "the parameter").says("The values; at least one."),
-                                               numbers("probabilities")
-                                                   .at_least(0.0, "none below 0")
-                                                   .usually("the same for all")
-                                                   .says("Their probabilities, as many as values; they add up to 1.")}};
+  static const KeyTable table_of_keys{
+      .name = "distribution.discrete",
+      .says = "Some values, each with a probability.",
+      .keys = {values("values", "the parameter").at_least_of(1, "at least one value").says("The values; at least one."),
+               numbers("probabilities")
+                   .at_least(0.0, "none below 0")
+                   .usually("the same for all")
+                   .says("Their probabilities, as many as values; they add up to 1.")}};
   return table_of_keys;
 }
 

@@ -55,7 +55,6 @@ NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs, con
         taken[index] = true;
         members.push_back(static_cast<int>(index));
       }
-      groups.require(!members.empty(), name, "at least one parameter");
       out.members.push_back(std::move(members));
       out.names.push_back(name);
     }

@@ -50,7 +50,6 @@ RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechan
                                const std::function<void(const Setting&)>& accepts) {
   RandomParameter random;
   random.paths = entry.one_or_texts("parameter");
-  entry.require(!random.paths.empty(), "parameter", "a parameter's path, or a list of them");
   std::vector<JournalSize> journals;
   bool radial = true;
   for (const std::string& path : random.paths) {
@@ -128,7 +127,6 @@ void read_rows_of(Cursor& entry, const MechanismDescription& mechanism,
                   const std::function<void(const Setting&)>& accepts, RandomInputs& inputs) {
   const std::string key = entry.has("parameters") ? "parameters" : "parameter";
   const std::vector<std::string> paths = key == "parameter" ? entry.one_or_texts(key) : entry.texts(key);
-  entry.require(!paths.empty(), key, "at least one parameter");
   std::vector<RandomParameter> row(paths.size());
   std::vector<std::string> units;
   for (std::size_t k = 0; k < paths.size(); ++k) {

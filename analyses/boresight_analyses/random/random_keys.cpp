@@ -14,10 +14,13 @@ const KeyTable& random_keys() {
           "that are drawn as a row of a table.",
       .keys = {texts("parameter")
                    .or_single()
+                   .at_least_of(1, "a parameter's path, or a list of them")
                    .sometimes("left out where parameters is given")
                    .says("The parameter's path, or a list of paths that all take the value drawn; `boresight paths` "
                          "lists them."),
                texts("parameters")
+                   .at_least_of(1, "at least one parameter")
+                   .all_different()
                    .sometimes("with a cylinder or rows only")
                    .says("The paths of parameters that are drawn together: two, as a point of a cylinder's cross "
                          "section, or any number, as a row of a table; parameter = [..] means the same there."),
@@ -31,7 +34,10 @@ const KeyTable& correlation_keys() {
       .name = "correlation",
       .says = "Two parameters that depend on each other, by a Gaussian copula: each keeps its own distribution.",
       .keys = {
-          texts("parameters").of_length({2}, "two parameters").says("The two parameters, each of a [[random]] table."),
+          texts("parameters")
+              .of_length({2}, "two parameters")
+              .all_different()
+              .says("The two parameters, each of a [[random]] table."),
           number("coefficient")
               .inside_of(-1.0, 1.0, "more than -1 and less than 1")
               .says("Their correlation, in the measure below."),
@@ -51,6 +57,8 @@ const KeyTable& groups_keys() {
       .name = "groups",
       .says = "Parameters that are taken as one, under a name of your own; each other parameter is a group of itself.",
       .keys = {texts("GROUP")
+                   .at_least_of(1, "at least one parameter")
+                   .all_different()
                    .sometimes("one for each group")
                    .says("The paths of the group's parameters; correlated ones belong into one group.")},
       .any_name = true};

@@ -51,7 +51,6 @@ DistributionPtr weibull(Cursor& table, const SiUnit& unit) {
 
 DistributionPtr discrete(Cursor& table, const SiUnit& unit) {
   const std::vector<double> value = table.values("values", unit);
-  table.require(!value.empty(), "values", "at least one value");
   std::vector<double> probability(value.size(), 1.0);
   if (table.has("probabilities")) {
     probability = table.numbers("probabilities");

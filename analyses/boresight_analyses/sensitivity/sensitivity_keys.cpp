@@ -4,6 +4,15 @@
 #include "boresight_analyses/study/study_keys.hpp"
 
 namespace boresight {
+namespace {
+
+std::vector<double> odd_numbers_to(int most) {
+  std::vector<double> odd;
+  for (int k = 1; k <= most; k += 2) odd.push_back(k);
+  return odd;
+}
+
+}  // namespace
 
 const KeyTable& sensitivity_keys() {
   using namespace keys;
@@ -28,6 +37,7 @@ const KeyTable& sensitivity_keys() {
                    .says("What is measured of each parameter."),
                integer("levels")
                    .between(2.0, 64.0, "an even number from 2 to 64")
+                   .except(odd_numbers_to(64), "an even number from 2 to 64")
                    .otherwise(4.0)
                    .says("At how many places of its distribution each parameter is tried; an even number. With method "
                          "= \"morris\" only."),

@@ -107,7 +107,6 @@ void read_method(Cursor& table, SensitivityPlan& plan) {
   const long long levels = table.integer("levels");
   plan.negligible = table.number("negligible");
   if (plan.method == SensitivityMethod::morris) {
-    table.require(levels % 2 == 0, "levels", "an even number from 2 to 64");
     plan.trajectories =
         std::make_shared<const MorrisTrajectories>(plan.groups, static_cast<int>(levels), plan.design.seed);
   }

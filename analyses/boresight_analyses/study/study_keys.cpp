@@ -86,6 +86,8 @@ Key confidence_key(double otherwise) {
   return keys::number("confidence").share().otherwise(otherwise).says("Confidence of all intervals.");
 }
 
-Key parameter_key(const std::string& sentence) { return keys::texts("parameter").or_single().says(sentence); }
+Key parameter_key(const std::string& sentence) {
+  return keys::texts("parameter").or_single().at_least_of(1, "a parameter's path, or a list of them").says(sentence);
+}
 
 }  // namespace boresight

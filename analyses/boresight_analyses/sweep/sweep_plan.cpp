@@ -41,7 +41,6 @@ SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism) {
   axis.only(sweep_axis_keys());
   SweepAxis result;
   result.parameters = axis.one_or_texts("parameter");
-  axis.require(!result.parameters.empty(), "parameter", "a parameter's path, or a list of them");
 
   for (const std::string& path : result.parameters) {
     const ParameterPath parameter(mechanism, path, axis.origin("parameter"));
@@ -56,7 +55,6 @@ SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism) {
     for (const char* key : {"from", "to", "count", "scale"})
       if (axis.has(key)) axis.fail(key, "either values, or from, to and count");
     result.values = axis.values("values", unit);
-    axis.require(!result.values.empty(), "values", "at least one value");
   } else if (axis.has("from")) {
     const double from = axis.value("from", unit), to = axis.value("to", unit);
     result.values = spaced(axis, from, to);
@@ -117,7 +115,6 @@ SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism, c
       axis.fail_found("values", std::to_string(points) + " points in all",
                       "at most " + std::to_string(kMostSweepPoints));
   }
-  if (plan.axes.empty()) sweep.fail("axis", "at least one [[sweep.axis]]");
   check_corners(sides, accepts, accepts_all);
   sweep.finish();
   return plan;

@@ -11,21 +11,50 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A number and a unit, or anything with the {i} of a pattern.
-constexpr const char* kQuantity =
-    "^[ \\t]*[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?(?![0-9.]|[eE][-+]?[0-9])([ \\t]*[^-+ \\t0-9.]|[ "
-    "\\t]+1).*$"
-    "|\\{i\\}";
+// A number and a unit, or anything with the {i} of a pattern. Units have no offset, so that zero and the sign are the same in each.
+enum class Sign { any, not_negative, positive };
 
-Json quantity() { return {{"type", "string"}, {"pattern", kQuantity}}; }
+Json quantity(Sign sign = Sign::any) {
+  // "-0 mm" is zero.
+  const std::string begin = sign == Sign::any            ? "[-+]?"
+                            : sign == Sign::not_negative ? "(\\+|-(?=[0.]+(?![0-9.])))?"
+                                                         : "\\+?(?=[0.]*[1-9])";
+  return {{"type", "string"},
+          {"pattern", "^[ \\t]*" + begin +
+                          "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?(?![0-9.]|[eE][-+]?[0-9])"
+                          "([ \\t]*[^-+ \\t0-9.]|[ \\t]+1).*$"
+                          "|\\{i\\}"}};
+}
+
+Json quantity(const Key& key) {
+  Sign sign = Sign::any;
+  for (const KeyBound& bound : key.bounds) {
+    if (bound.least > 0.0 || (bound.least == 0.0 && bound.above)) return quantity(Sign::positive);
+    if (bound.least == 0.0) sign = Sign::not_negative;
+  }
+  return quantity(sign);
+}
+
+Json text_of(const Key& key) {
+  Json schema = {{"type", "string"}};
+  if (!key.filled_expected.empty()) schema["minLength"] = 1;
+  return schema;
+}
 
 Json number(const Key& key, const char* type) {
   Json schema = {{"type", type}};
+  if (!key.but_not.empty()) schema["not"] = {{"enum", key.but_not}};
   for (const KeyBound& bound : key.bounds) {
     if (std::isfinite(bound.least)) schema[bound.above ? "exclusiveMinimum" : "minimum"] = bound.least;
     if (std::isfinite(bound.most)) schema[bound.below ? "exclusiveMaximum" : "maximum"] = bound.most;
   }
   return schema;
+}
+
+// A direction, or coefficients that are not all zero.
+Json some_not_zero(Json list) {
+  list["contains"] = {{"not", {{"const", 0}}}};
+  return list;
 }
 
 Json list(const Json& items, const std::vector<std::size_t>& counts) {
@@ -42,6 +71,13 @@ Json list(const Json& items, const std::vector<std::size_t>& counts) {
       between.push_back({{"minItems", n}, {"maxItems", n}});
   if (!between.empty()) schema["not"] = {{"anyOf", between}};
   return schema;
+}
+
+Json list(const Json& items, const Key& key) {
+  Json schema = list(items, key.counts);
+  if (key.fewest > 0) schema["minItems"] = key.fewest;
+  if (key.distinct) schema["uniqueItems"] = true;
+  return key.not_all_zero ? some_not_zero(std::move(schema)) : schema;
 }
 
 Json words(const Key& key) {
@@ -64,31 +100,33 @@ Json reference_to(const Key& key) {
 }
 
 Json of_kind(const Key& key) {
-  const Json text = {{"type", "string"}};
+  const Json text = text_of(key);
   switch (key.kind) {
     case KeyKind::quantity:
-      if (!key.word.empty()) return {{"anyOf", {Json{{"const", key.word}}, quantity()}}};
-      if (key.inside != nullptr) return {{"anyOf", {quantity(), reference_to(key)}}};
-      return quantity();
+      if (!key.word.empty()) return {{"anyOf", {Json{{"const", key.word}}, quantity(key)}}};
+      if (key.inside != nullptr) return {{"anyOf", {quantity(key), reference_to(key)}}};
+      return quantity(key);
     case KeyKind::quantities:
-      return list(quantity(), key.counts);
+      return list(quantity(key), key);
     case KeyKind::vector:
-      return list(quantity(), {3});
+      return list(quantity(key), {3});
     case KeyKind::points:
-      return list(list(quantity(), {3}), key.counts);
+      return list(list(quantity(key), {3}), key);
     case KeyKind::number:
       return number(key, "number");
     case KeyKind::numbers:
-      return list(number(key, "number"), key.counts);
-    case KeyKind::direction:
-      if (!key.text_form.empty()) return {{"anyOf", {list({{"type", "number"}}, {3}), text}}};
-      return list({{"type", "number"}}, {3});
+      return list(number(key, "number"), key);
+    case KeyKind::direction: {
+      const Json direction = some_not_zero(list({{"type", "number"}}, {3}));
+      if (!key.text_form.empty()) return {{"anyOf", {direction, text}}};
+      return direction;
+    }
     case KeyKind::integer:
       return number(key, "integer");
     case KeyKind::value:
-      return {{"anyOf", {number(key, "number"), quantity()}}};
+      return {{"anyOf", {number(key, "number"), quantity(key)}}};
     case KeyKind::values:
-      return list({{"anyOf", {number(key, "number"), quantity()}}}, key.counts);
+      return list({{"anyOf", {number(key, "number"), quantity(key)}}}, key);
     case KeyKind::boolean:
       return {{"type", "boolean"}};
     case KeyKind::text:
@@ -96,16 +134,16 @@ Json of_kind(const Key& key) {
       return text;
     case KeyKind::texts:
     case KeyKind::expressions:
-      if (key.or_one) return {{"anyOf", {text, list(text, key.counts)}}};
-      return list(text, key.counts);
+      if (key.or_one) return {{"anyOf", {text, list(text, key)}}};
+      return list(text, key);
     case KeyKind::choice:
       return words(key);
     case KeyKind::choices:
-      return list(words(key), {});
+      return list(words(key), key);
     case KeyKind::table:
       return {{"allOf", Json::array({reference_to(key)})}};  // beside a bare $ref editors read nothing
     case KeyKind::tables:
-      return list(reference_to(key), {});
+      return list(reference_to(key), key);
   }
   return {};
 }

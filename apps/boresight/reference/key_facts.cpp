@@ -21,6 +21,7 @@ std::string presence_text(const Key& key) {
 
 std::string facts_text(const Key& key) {
   std::string text = kind_text(key);
+  if (key.distinct) text += ", all different";
   if (const std::string range = range_text(key); !range.empty()) text += "; " + range;
   return text + "; " + presence_text(key);
 }

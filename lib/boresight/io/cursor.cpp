@@ -196,9 +196,13 @@ Cursor Cursor::table_or_empty(const std::string& key) {
 }
 
 std::vector<Cursor> Cursor::tables(const std::string& key) {
-  if (keys_ != nullptr) known(key, {KeyKind::tables});
+  const Key* of_table = keys_ != nullptr ? &known(key, {KeyKind::tables}) : nullptr;
   std::vector<Cursor> result;
   const Node* node = member(key);
+  if (of_table != nullptr && (node != nullptr || of_table->presence == Key::Presence::required))
+    require(of_table->fewest == 0 ||
+                (node != nullptr && (node->kind != Node::Kind::array || node->items.size() >= of_table->fewest)),
+            key, of_table->fewest_expected);
   if (node == nullptr) return result;
   const std::string expected = "tables [[" + key + "]]";
   require(node->kind == Node::Kind::array, key, expected);

@@ -137,6 +137,7 @@ class Cursor {
   double one(const std::string& key, const SiUnit* unit);
   long long whole(const Key& key, const std::string& name);
   std::string word(const std::string& key);
+  std::string text_of(const Key& key, const std::string& name);  // and refuses an empty one where none may be
   std::string chosen(const std::string& key, const std::string& value, const std::vector<std::string>& choices) const;
   std::vector<double> list(const std::string& name, const Key& key, const SiUnit* unit);
   std::vector<std::string> words(const std::string& key, const std::vector<std::string>& elements);

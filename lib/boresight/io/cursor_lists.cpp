@@ -41,8 +41,12 @@ std::vector<double> Cursor::list(const std::string& name, const Key& key, const 
     if (!holds(key.range, x)) fail(name, in_words(key.range));
   if (!key.counts.empty())
     require(std::find(key.counts.begin(), key.counts.end(), read.size()) != key.counts.end(), name, key.list_expected);
+  require(read.size() >= key.fewest, name, key.fewest_expected);
   for (const KeyBound& bound : key.bounds)
     for (const double x : read) require(bound.holds(x), name, bound.expected);
+  if (key.not_all_zero)
+    require(std::any_of(read.begin(), read.end(), [](double x) { return x != 0.0; }), name,
+            "a coefficient that is not zero");
   return read;
 }
 
@@ -83,6 +87,7 @@ std::vector<std::string> Cursor::texts(const std::string& name) {
   const std::vector<std::string> read = words(name, key.elements);
   if (!key.counts.empty())
     require(std::find(key.counts.begin(), key.counts.end(), read.size()) != key.counts.end(), name, key.list_expected);
+  require(read.size() >= key.fewest, name, key.fewest_expected);
   return read;
 }
 
@@ -94,6 +99,7 @@ std::vector<std::string> Cursor::choices(const std::string& name) {
   for (const std::string& x : read)
     if (std::find(choices.begin(), choices.end(), x) == choices.end())
       fail_found(name, in_quotes(x), key.list_expected, nearest_name(x, choices));
+  require(read.size() >= key.fewest, name, key.fewest_expected);
   return read;
 }
 

@@ -49,6 +49,7 @@ bool Cursor::given(const std::string& key) const { return member(key) != nullptr
 void Cursor::check(const Key& key, const std::string& name, double value) const {
   if (!holds(key.range, value)) fail(name, in_words(key.range));
   for (const KeyBound& bound : key.bounds) require(bound.holds(value), name, bound.expected);
+  for (const double refused : key.but_not) require(value != refused, name, key.but_not_expected);
 }
 
 double Cursor::one(const std::string& key, const SiUnit* unit) {
@@ -132,6 +133,7 @@ long long Cursor::whole(const Key& key, const std::string& name) {
     read = node.integer;
   }
   for (const KeyBound& bound : key.bounds) require(bound.holds(read), name, bound.expected);
+  for (const double refused : key.but_not) require(static_cast<double>(read) != refused, name, key.but_not_expected);
   return read;
 }
 
@@ -182,13 +184,20 @@ std::string Cursor::text(const std::string& name) {
   const Key& key = known(name, {KeyKind::text, KeyKind::expression, KeyKind::texts, KeyKind::expressions});
   if ((key.kind == KeyKind::texts || key.kind == KeyKind::expressions) && !key.or_one)
     throw std::logic_error(keys_->name + ", " + name + " is a list only");
-  return !given(name) && key.presence == Key::Presence::has_default ? key.text_otherwise : word(name);
+  return !given(name) && key.presence == Key::Presence::has_default ? key.text_otherwise : text_of(key, name);
+}
+
+std::string Cursor::text_of(const Key& key, const std::string& name) {
+  std::string read = word(name);
+  require(key.filled_expected.empty() || !read.empty(), name, key.filled_expected);
+  return read;
 }
 
 std::string Cursor::text(const std::string& name, const std::string& otherwise) {
-  if (known(name, {KeyKind::text}).presence == Key::Presence::has_default)
+  const Key& key = known(name, {KeyKind::text});
+  if (key.presence == Key::Presence::has_default)
     throw std::logic_error(keys_->name + ", " + name + " has a default of its own");
-  return given(name) ? word(name) : otherwise;
+  return given(name) ? text_of(key, name) : otherwise;
 }
 
 std::string Cursor::chosen(const std::string& key, const std::string& value,

@@ -99,6 +99,28 @@ Key Key::or_single() && {
   or_one = true;
   return std::move(*this);
 }
+Key Key::at_least_of(std::size_t count, const std::string& expected) && {
+  fewest = count;
+  fewest_expected = expected;
+  return std::move(*this);
+}
+Key Key::all_different() && {
+  distinct = true;
+  return std::move(*this);
+}
+Key Key::with_some_not_zero() && {
+  not_all_zero = true;
+  return std::move(*this);
+}
+Key Key::filled(const std::string& expected) && {
+  filled_expected = expected;
+  return std::move(*this);
+}
+Key Key::except(std::vector<double> refused, const std::string& expected) && {
+  but_not = std::move(refused);
+  but_not_expected = expected;
+  return std::move(*this);
+}
 Key Key::for_verbs(const std::string& names) && {
   verbs = names;
   return std::move(*this);

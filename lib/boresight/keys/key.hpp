@@ -84,10 +84,17 @@ struct Key {
   std::string text_form;       // of a direction: what text may stand in its place, in words; "": none
   std::string word;            // a word that may stand in place of a quantity, and is the default
   std::vector<KeyChoice> choices;
-  std::vector<std::string> elements;      // names of a list's elements, by which settings address them
-  std::vector<std::size_t> counts;        // how many a list may have; empty: any number
-  std::string list_expected;              // of a list, for the error's text
-  bool or_one = false;                    // one element may stand without the list
+  std::vector<std::string> elements;  // names of a list's elements, by which settings address them
+  std::vector<std::size_t> counts;    // how many a list may have; empty: any number
+  std::string list_expected;          // of a list, for the error's text
+  bool or_one = false;                // one element may stand without the list
+  std::size_t fewest = 0;             // elements of a list, or tables, where the number is open otherwise
+  std::string fewest_expected;        // for the error's text
+  bool distinct = false;              // no element of a list twice; its reader says which, or of which study
+  bool not_all_zero = false;          // of numbers
+  std::string filled_expected;        // of a text that may not be empty, for the error's text; "": it may
+  std::vector<double> but_not;        // numbers within the bounds that are refused
+  std::string but_not_expected;
   const KeyTable& (*inside)() = nullptr;  // of a table; null: read elsewhere (the tables of a study's verbs)
   std::string verbs;                      // that look at it; "": all that read the file
   std::string sentence;                   // for people
@@ -111,6 +118,11 @@ struct Key {
   Key named(std::vector<std::string> elements) &&;
   Key of_length(std::vector<std::size_t> counts, const std::string& expected) &&;
   Key or_single() &&;
+  Key at_least_of(std::size_t fewest, const std::string& expected) &&;
+  Key all_different() &&;
+  Key with_some_not_zero() &&;
+  Key filled(const std::string& expected) &&;
+  Key except(std::vector<double> refused, const std::string& expected) &&;
   Key for_verbs(const std::string& verbs) &&;
   Key says(const std::string& sentence) &&;
 };

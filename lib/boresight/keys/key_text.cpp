@@ -80,6 +80,7 @@ std::string kind_text(const Key& key) {
   std::string many = "list";
   for (const std::size_t count : key.counts)
     many += (count == key.counts.front() ? " of " : " or ") + std::to_string(count);
+  if (key.fewest > 1) many += " of " + std::to_string(key.fewest) + " or more";
   const std::string one_too = key.or_one ? ", or one of them" : "";
   const auto of_unit = [&](const std::string& name) {
     if (!key.unit_is.empty()) return name + " in the unit of " + key.unit_is;
@@ -117,7 +118,7 @@ std::string kind_text(const Key& key) {
     case KeyKind::choice:
       return "word";
     case KeyKind::choices:
-      return many + " of words";
+      return many + (key.fewest > 1 ? " words" : " of words");
     case KeyKind::expression:
       return unit == "1" ? "expression" : "expression of t in " + unit;
     case KeyKind::expressions:
@@ -125,7 +126,7 @@ std::string kind_text(const Key& key) {
     case KeyKind::table:
       return "table";
     case KeyKind::tables:
-      return "any number of tables";
+      return key.fewest == 1 ? "one table or more" : "any number of tables";
   }
   return "";
 }

@@ -5,48 +5,18 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/io/toml_tree.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "file_corpus.hpp"
-#include "reference/json_schema.hpp"
+#include "schema_verdict.hpp"
 
 namespace boresight::app {
 namespace schema_test {
 
-using Adapter = valijson::adapters::NlohmannJsonAdapter;
-
-class Schema {
- public:
-  explicit Schema(const std::string& file) : text_(nlohmann::json::parse(json_schema(file).dump())) {
-    valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(Adapter(text_), schema_);
-  }
-  // What is wrong, or "".
-  std::string fault_of(const nlohmann::json& json) const {
-    valijson::Validator validator;
-    valijson::ValidationResults results;
-    if (validator.validate(schema_, Adapter(json), &results)) return "";
-    std::string faults;
-    valijson::ValidationResults::Error error;
-    while (results.popError(error)) {
-      for (const std::string& part : error.context) faults += part;
-      faults += ": " + error.description + "\n";
-    }
-    return faults.empty() ? "refused" : faults;
-  }
-
- private:
-  nlohmann::json text_;
-  valijson::Schema schema_;
-};
-
 TEST(Schemas, AcceptEveryFileThatTheProgramTakes) {
-  const Schema mechanism("mechanism"), study("study");
+  const SchemaVerdict mechanism("mechanism"), study("study");
   int seen = 0;
   for (const CorpusFile& file : file_corpus()) {
     if (file.kind == "posterior") continue;
@@ -57,16 +27,16 @@ TEST(Schemas, AcceptEveryFileThatTheProgramTakes) {
   EXPECT_GT(seen, 30);
 }
 
-struct Damage {
+struct Change {
   const char* what;
   const char* with;
 };
 
 // The text with the damage is refused by the reader and by the schema, the text without it by none.
 template <typename Read>
-void expect_both_refuse(const std::filesystem::path& file, const std::string& kind, const std::vector<Damage>& damages,
+void expect_both_refuse(const std::filesystem::path& file, const std::string& kind, const std::vector<Change>& damages,
                         const Read& read) {
-  const Schema schema(kind);
+  const SchemaVerdict schema(kind);
   std::string good;
   {
     std::ifstream in(file);
@@ -74,7 +44,7 @@ void expect_both_refuse(const std::filesystem::path& file, const std::string& ki
   }
   ASSERT_EQ(schema.fault_of(json_of(parse_toml(good, "f.toml"))), "");
   ASSERT_NO_THROW(read(good));
-  for (const Damage& damage : damages) {
+  for (const Change& damage : damages) {
     std::string text = good;
     const std::size_t at = text.find(damage.what);
     ASSERT_NE(at, std::string::npos) << damage.what;
