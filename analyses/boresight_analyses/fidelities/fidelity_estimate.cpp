@@ -80,6 +80,20 @@ FidelityEstimate estimate_fidelities(const FidelityPlan& plan, const std::vector
   return result;
 }
 
+namespace {
+
+// Of the risk of one side, what counting the first model's own samples has: all of it where it stands alone, else half.
+double risk_of_counting(double risk, bool alone) { return alone ? risk : 0.5 * risk; }
+
+}  // namespace
+
+FewestSamples fewest_to_show(double probability, double confidence) {
+  const auto fewest = [&](bool alone) {
+    return wilks_one_sided(probability, 1.0 - risk_of_counting(1.0 - confidence, alone));
+  };
+  return {.beside_others = fewest(false), .alone = fewest(true)};
+}
+
 IndependentInterval excess_bounds(const FidelityPlan& plan, const std::vector<std::vector<double>>& indicators,
                                   double confidence) {
   const std::size_t models = plan.models.size();
@@ -87,7 +101,7 @@ IndependentInterval excess_bounds(const FidelityPlan& plan, const std::vector<st
   const auto beyond = static_cast<std::int64_t>(
       std::count(indicators[0].begin(), indicators[0].begin() + static_cast<std::ptrdiff_t>(dear), 1.0));
   const double risk = 0.5 * (1.0 - confidence);
-  const double alone = models == 1 ? 1.0 - risk : 1.0 - 0.5 * risk;
+  const double alone = 1.0 - risk_of_counting(risk, models == 1);
   IndependentInterval result{double(beyond) / double(dear),
                              clopper_pearson_lower(beyond, dear, alone),
                              clopper_pearson_upper(beyond, dear, alone),

@@ -32,6 +32,11 @@ FidelityEstimate estimate_fidelities(const FidelityPlan& plan, const std::vector
 IndependentInterval excess_bounds(const FidelityPlan& plan, const std::vector<std::vector<double>>& indicators,
                                   double confidence);
 
+// The fewest samples of the first model with which these bounds can show that a share of `probability` stays below a limit, one-sided at
+// `confidence`: with none of them beyond (Wilks 1941). Betting takes no fewer, however closely cheap models follow: of n terms, all
+// alike, its bound is that of n samples without a hit, 1 - risk^(1/n).
+FewestSamples fewest_to_show(double probability, double confidence);
+
 // 0 and 1 in place of values, for a probability; a sample that failed counts as beyond. limits: of the pilot's models.
 std::vector<std::vector<double>> excess_indicators(const FidelityPlan& plan,
                                                    const std::vector<std::vector<double>>& values,

@@ -63,6 +63,26 @@ Choice cheapest(const std::vector<double>& correlation, const std::vector<double
   return best;
 }
 
+// Of given models, how many samples of each the CPU seconds `left` pay: in proportion to `share`, but `first` of the dear one where that is not 0.
+// Empty where they do not pay so many.
+std::vector<std::int64_t> samples_of(const std::vector<double>& rho, const std::vector<double>& cost, double left,
+                                     std::int64_t first) {
+  const auto share = [&](std::size_t i) {  // m_i is proportional to it
+    const double next = i + 1 < rho.size() ? rho[i + 1] * rho[i + 1] : 0.0;
+    return std::sqrt(std::max(0.0, rho[i] * rho[i] - next) / cost[i]);
+  };
+  double unit = 0.0, spent = 0.0;
+  for (std::size_t i = first > 0 ? 1 : 0; i < rho.size(); ++i) unit += cost[i] * share(i);
+  left -= cost[0] * static_cast<double>(first);
+  std::vector<std::int64_t> samples;
+  for (std::size_t i = 0; i < rho.size(); ++i) {
+    const double wanted = i == 0 && first > 0 ? static_cast<double>(first) : std::max(0.0, left) / unit * share(i);
+    samples.push_back(std::max<std::int64_t>(static_cast<std::int64_t>(wanted), i == 0 ? 2 : samples.back() + 2));
+    if (i > 0) spent += cost[i] * static_cast<double>(samples.back());
+  }
+  return first > 0 && spent > left ? std::vector<std::int64_t>{} : samples;
+}
+
 // Samples that failed on no model.
 std::vector<std::vector<double>> whole(const FidelityPilot& pilot) {
   std::vector<std::vector<double>> values(pilot.models());
@@ -101,7 +121,8 @@ double price_of_models(const std::vector<double>& correlation, const std::vector
   return sum * sum;
 }
 
-FidelityPlan plan_fidelities(const FidelityPilot& pilot, double budget, std::uint64_t seed) {
+FidelityPlan plan_fidelities(const FidelityPilot& pilot, double budget, std::uint64_t seed,
+                             const FewestSamples& fewest) {
   check(pilot);
   const std::vector<std::vector<double>> values = whole(pilot);
   const std::size_t n = values[0].size();
@@ -120,18 +141,24 @@ FidelityPlan plan_fidelities(const FidelityPilot& pilot, double budget, std::uin
   plan.pilot_samples = static_cast<std::int64_t>(pilot.samples());
   plan.pilot_failed = plan.pilot_samples - static_cast<std::int64_t>(n);
 
-  const std::vector<double> rho = picked(m.correlation, plan.models), cost = picked(pilot.cost, plan.models);
-  const auto share = [&](std::size_t i) {  // m_i is proportional to it
-    const double next = i + 1 < rho.size() ? rho[i + 1] * rho[i + 1] : 0.0;
-    return std::sqrt(std::max(0.0, rho[i] * rho[i] - next) / cost[i]);
-  };
-  double unit = 0.0;
-  for (std::size_t i = 0; i < rho.size(); ++i) unit += cost[i] * share(i);
+  std::vector<double> rho = picked(m.correlation, plan.models), cost = picked(pilot.cost, plan.models);
+  plan.samples = samples_of(rho, cost, left, 0);
+  plan.for_the_mean = plan.samples.front();
+  plan.fewest = plan.models.size() > 1 ? fewest.beside_others : fewest.alone;
+  if (!plan.can_show() && plan.models.size() > 1) {
+    if (std::vector<std::int64_t> raised = samples_of(rho, cost, left, plan.fewest); !raised.empty()) {
+      plan.samples = std::move(raised);
+    } else if (cost[0] * static_cast<double>(fewest.alone) <= left) {
+      plan.models = {0};
+      plan.fewest = fewest.alone;
+      rho.resize(1);
+      cost.resize(1);
+      plan.samples = samples_of(rho, cost, left, 0);
+    }
+  }
   for (std::size_t i = 0; i < rho.size(); ++i) {
-    const auto wanted = static_cast<std::int64_t>(left / unit * share(i));
-    plan.samples.push_back(std::max<std::int64_t>(wanted, i == 0 ? 2 : plan.samples.back() + 2));
     plan.weight.push_back(i == 0 ? 1.0 : rho[i] * m.sd[0] / m.sd[plan.models[i]]);
-    plan.cost += cost[i] * double(plan.samples.back());
+    plan.cost += cost[i] * double(plan.samples[i]);
   }
   // With whole numbers of samples (Eq. 3.4).
   plan.variance = m.sd[0] * m.sd[0] / double(plan.samples[0]);

@@ -26,6 +26,12 @@ struct FidelityPilot {
   double spent() const;  // CPU seconds
 };
 
+// Samples of the dear model without which a share of all samples cannot be shown, whatever they give: where cheap models bound it too, and
+// where it stands alone (fewest_to_show). Nothing is to be shown: 0.
+struct FewestSamples {
+  std::int64_t beside_others = 0, alone = 0;
+};
+
 struct FidelityPlan {
   std::vector<int> models;            // chosen, model 0 first, then by falling |rho|
   std::vector<double> weight;         // alpha of each; 1 of the first
@@ -39,12 +45,21 @@ struct FidelityPlan {
   // What the pilot saw, per model of the pilot.
   std::vector<double> mean, sd, correlation;
   std::int64_t pilot_samples = 0, pilot_failed = 0;
+
+  // Of the dear model: what is asked of it, 0 for nothing, and what serves the mean best.
+  std::int64_t fewest = 0, for_the_mean = 0;
+  bool can_show() const { return samples.front() >= fewest; }
+  // It has more for what is to be shown than the mean alone would give it, or stands alone for that.
+  bool raised() const { return fewest > 0 && can_show() && for_the_mean < fewest; }
 };
 
 // `budget`: CPU seconds for everything, what the pilot has spent included. Samples that failed on any model are left out of
-// all. Throws std::invalid_argument for fewer than ten samples that did not fail, costs that are not positive, or a budget
+// all. The mean's variance is least; where the dear model would have fewer samples than something to be shown takes, it has as many first, and
+// the others share the rest; the dear model alone where the budget pays no others beside so many. Where it does not pay that either, the
+// plan serves the mean. Throws std::invalid_argument for fewer than ten samples that did not fail, costs that are not positive, or a budget
 // that does not pay two samples of every model after the pilot.
-FidelityPlan plan_fidelities(const FidelityPilot& pilot, double budget, std::uint64_t seed = 1);
+FidelityPlan plan_fidelities(const FidelityPilot& pilot, double budget, std::uint64_t seed = 1,
+                             const FewestSamples& fewest = {});
 
 // The same samples put to another quantity: weights from its own pilot (indicators in place of values, say).
 FidelityPlan with_weights_of(FidelityPlan plan, const FidelityPilot& pilot);

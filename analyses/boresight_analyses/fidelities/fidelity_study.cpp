@@ -31,7 +31,10 @@ std::vector<Level> open_levels(const StudyRun& run, const MonteCarloPlan& plan) 
 // Throws ComputationError.
 FidelityPlan plan_of(const FidelityStudy& study, const MonteCarloPlan& plan) {
   try {
-    return plan_fidelities(study.pilot, plan.fidelities->budget, plan.design.seed);
+    const FewestSamples fewest = plan.requirement
+                                     ? fewest_to_show(plan.requirement->probability, plan.requirement->confidence)
+                                     : FewestSamples{};
+    return plan_fidelities(study.pilot, plan.fidelities->budget, plan.design.seed, fewest);
   } catch (const std::invalid_argument& refusal) {
     std::string why = std::string("[montecarlo] fidelities: ") + refusal.what();
     if (study.failures.count > 0)

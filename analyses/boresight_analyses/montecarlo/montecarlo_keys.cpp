@@ -108,7 +108,10 @@ const KeyTable& fidelities_keys() {
   static const FidelityQuestion q;
   static const KeyTable table_of_keys{
       .name = "montecarlo.fidelities",
-      .says = "The mean for the first rung from few samples there and many on cheaper ones.",
+      .says =
+          "The mean for the first rung from few samples there and many on cheaper ones. With a requirement the first "
+          "rung "
+          "has as many as that takes to be shown at all, where the budget pays them.",
       .keys = {choices("models", rung_names(), "the name of a rung")
                    .at_least_of(2, "two rungs or more, the one to be unbiased for first")
                    .all_different()

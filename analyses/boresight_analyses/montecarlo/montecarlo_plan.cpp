@@ -92,6 +92,9 @@ std::string MonteCarloPlan::sample_text(const Study& study) const {
     text += "fidelities";
     for (const std::string& model : fidelities->models) text += " " + model;
     text += " " + exact_text(fidelities->budget) + " " + std::to_string(fidelities->pilot) + "\n";
+    // So does what is to be shown: the first rung has as many samples as that takes.
+    if (requirement)
+      text += "to show " + exact_text(requirement->probability) + " at " + exact_text(requirement->confidence) + "\n";
   }
   if (tail)
     text += "tail " + tail->cheap + " " + tail->exact + " " + exact_text(tail->budget) + " " +

@@ -7,8 +7,6 @@
 #include <ostream>
 
 #include "boresight_analyses/fidelities/fidelity_study.hpp"
-#include "boresight_analyses/statistics/binomial.hpp"
-#include "montecarlo/montecarlo_report.hpp"
 #include "montecarlo/several_rungs.hpp"
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
@@ -21,11 +19,23 @@ namespace boresight::app {
 namespace {
 
 std::string forecast_sentence(const FidelityPlan& plan, const std::string& top) {
+  if (plan.models.size() == 1 && plan.raised())
+    return "forecast: the requirement takes the whole budget for samples on " + top;
   if (plan.models.size() == 1)
     return "forecast: nothing to gain from the cheaper rungs; the budget goes to " + top + " alone";
   return fmt::format(
       "forecast: variance {:.3g} times lower ({:.3g} to {:.3g}) than {} alone for the same CPU, pilot paid for",
       plan.gain, plan.gain_low, plan.gain_high, top);
+}
+
+// What a requirement makes of the plan; "" where it is the mean's.
+std::string requirement_of_plan(const FidelityPlan& plan, const std::string& top) {
+  if (!plan.raised()) return "";
+  return fmt::format(
+      "for the requirement {} has {}{}, where the mean alone would give it {}: it is shown by {} or more, with none "
+      "beyond the limit",
+      top, how_many(static_cast<std::size_t>(plan.samples.front()), "sample"),
+      plan.models.size() == 1 ? ", and the whole budget" : "", plan.for_the_mean, plan.fewest);
 }
 
 void write_levels(std::ostream& out, const SeveralRungs& s, const FidelityStudy& o) {
@@ -92,6 +102,8 @@ int run_fidelities(const SeveralRungs& s) {
   const std::string unit = s.question.study.index.si_unit();
   const FidelityStudy o = run_fidelity_study(s.own.run(), plan, [&](const FidelityPlan& planned) {
     if (!s.command.quiet) tell("{}: {}\n", s.question.mechanism->name(), forecast_sentence(planned, top));
+    if (const std::string raised = requirement_of_plan(planned, top); !s.command.quiet && !raised.empty())
+      tell("  {}\n", raised);
     std::fflush(stdout);
   });
   if (o.interrupted) {
@@ -106,19 +118,17 @@ int run_fidelities(const SeveralRungs& s) {
   if (o.mean.failed > 0)
     warnings.push_back(fmt::format("{} samples failed on some rung and are left out of its mean", o.mean.failed) +
                        first_failure_text(o.failures, "sample"));
-  if (o.plan.models.size() == 1)
+  if (o.plan.models.size() == 1 && !o.plan.raised())
     warnings.push_back("the cheaper rungs do not pay: this is plain Monte Carlo on " + top +
                        ", the pilot was spent in vain");
   std::optional<RequirementShown> requirement;
-  // The plan serves the mean: where the cheap rungs follow closely it leaves the first one next to nothing, by which a share is shown.
-  if (o.excess && !(o.excess->high <= 1.0 - plan.requirement->probability)) {
-    const std::int64_t fewest = wilks_one_sided(plan.requirement->probability, plan.requirement->confidence);
-    if (o.plan.samples[0] < fewest)
-      warnings.push_back(fmt::format(
-          "the plan that serves the mean best has {} on {}, too few to show the requirement, which takes {} "
-          "or more whatever they give: plain samples, without fidelities, judge it",
-          how_many(static_cast<std::size_t>(o.plan.samples[0]), "sample"), top, fewest));
-  }
+  // Where the budget does not pay what the requirement takes, the plan serves the mean.
+  if (o.excess && !(o.excess->high <= 1.0 - plan.requirement->probability) && !o.plan.can_show())
+    warnings.push_back(fmt::format(
+        "the budget leaves {} on {}, too few to show the requirement, which takes {} or more whatever they give: a "
+        "larger budget, or plain samples, without fidelities, judge it",
+        how_many(static_cast<std::size_t>(o.plan.samples[0]), "sample"), top,
+        fewest_to_show(plan.requirement->probability, plan.requirement->confidence).alone));
   Json json = several_rungs_summary(s, top, warnings, o.earlier);
   json["samples"] = o.plan.samples[0];
   json["failed"] = o.mean.failed;
@@ -153,6 +163,8 @@ int run_fidelities(const SeveralRungs& s) {
                 {"counted_seconds", o.pilot.spent()},
                 {"cpu_seconds", static_cast<double>(o.pilot.samples()) *
                                     std::accumulate(o.measured_cost.begin(), o.measured_cost.end(), 0.0)}};
+  if (o.plan.fewest > 0)
+    f["requirement"] = {{"fewest_samples", o.plan.fewest}, {"samples_for_the_mean", o.plan.for_the_mean}};
   f["budget"] = asked.budget;
   f["cpu_seconds"] = o.spent;
   const std::string more = overspent(o.spent, asked.budget);
@@ -190,7 +202,8 @@ int run_fidelities(const SeveralRungs& s) {
       document.sections.begin(),
       report::Section{.id = "rungs",
                       .title = "How the budget was spent",
-                      .intro = "Made before anything but the pilot was spent: " + forecast_sentence(o.plan, top) + ".",
+                      .intro = "Made before anything but the pilot was spent: " + forecast_sentence(o.plan, top) +
+                               (o.plan.raised() ? "; " + requirement_of_plan(o.plan, top) : "") + ".",
                       .items = {levels_table(s, o), agreement_chart(s, o)}});
   write_report(s.own.out(), document);
   s.own.out().publish();

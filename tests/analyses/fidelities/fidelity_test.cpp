@@ -232,6 +232,56 @@ TEST(ExcessBounds, ShowARequirementThatIsMetWithRoom) {
   EXPECT_LE(bounds.low, 0.001);
 }
 
+// With no sample beyond the limit the bounds show the requirement from that number of samples on, and not with one less: whether
+// the first model stands alone, or others follow it to the last digit.
+TEST(ExcessBounds, ShowARequirementFromTheFewestSamplesOn) {
+  for (const auto& [p, confidence] : {std::pair{0.9, 0.9}, std::pair{0.95, 0.95}, std::pair{0.9973, 0.9}}) {
+    const FewestSamples fewest = fewest_to_show(p, confidence);
+    EXPECT_GT(fewest.beside_others, fewest.alone);
+    for (const std::int64_t less : {0, 1})
+      for (const bool alone : {true, false}) {
+        FidelityPlan plan;
+        const std::int64_t first = (alone ? fewest.alone : fewest.beside_others) - less;
+        plan.models = alone ? std::vector<int>{0} : std::vector<int>{0, 1};
+        plan.samples = alone ? std::vector{first} : std::vector{first, 50 * first};
+        plan.weight = alone ? std::vector{1.0} : std::vector{1.0, 1.0};
+        std::vector<std::vector<double>> none;
+        for (const std::int64_t n : plan.samples) none.emplace_back(static_cast<std::size_t>(n), 0.0);
+        const double high = excess_bounds(plan, none, 2.0 * confidence - 1.0).high;
+        EXPECT_EQ(high <= 1.0 - p, less == 0) << p << ' ' << alone << ' ' << high;
+      }
+  }
+}
+
+// Sixty samples of the first model at most: the mean alone takes about half of them.
+TEST(FidelityPlan, GivesTheFirstModelWhatARequirementTakes) {
+  std::mt19937_64 engine(11);
+  const FidelityPilot pilot = Hierarchy{{1.0, 0.999}, {1.0, 2.0}, {0.0, -3.0}}.pilot(engine, 50, {1.0, 0.001});
+  const double left = 60.5, budget = pilot.spent() + left;
+  const FidelityPlan mean = plan_fidelities(pilot, budget);
+  EXPECT_FALSE(mean.raised());
+  const FewestSamples fewest{mean.samples[0] + 7, mean.samples[0] + 5};
+  const FidelityPlan plan = plan_fidelities(pilot, budget, 1, fewest);
+  EXPECT_TRUE(plan.raised() && plan.can_show());
+  EXPECT_EQ(plan.samples[0], fewest.beside_others);
+  EXPECT_EQ(plan.for_the_mean, mean.samples[0]);
+  EXPECT_EQ(plan.models, mean.models);
+  EXPECT_LT(plan.samples[1], mean.samples[1]);
+  EXPECT_LE(plan.cost, left);
+  EXPECT_GT(plan.cost, 0.98 * left);
+  EXPECT_GT(plan.variance, mean.variance);
+  // The mean's plan is kept where it has enough, and where no plan has.
+  EXPECT_EQ(plan_fidelities(pilot, budget, 1, {mean.samples[0], 2}).samples, mean.samples);
+  const FidelityPlan too_dear = plan_fidelities(pilot, budget, 1, {1000, 800});
+  EXPECT_EQ(too_dear.samples, mean.samples);
+  EXPECT_FALSE(too_dear.can_show() || too_dear.raised());
+  // And the first model stands alone where the budget pays no others beside so many.
+  const FidelityPlan alone = plan_fidelities(pilot, budget, 1, {61, 50});
+  EXPECT_EQ(alone.models, std::vector<int>{0});
+  EXPECT_EQ(alone.samples, std::vector<std::int64_t>{60});
+  EXPECT_TRUE(alone.raised());
+}
+
 // A pilot of 100 sees one in a hundred once or not at all; the weight is then that of normal variables, and not 0.
 TEST(FidelityPlan, TakesWeightsOfARareExcessFromTheCorrelation) {
   std::mt19937_64 engine(13);
