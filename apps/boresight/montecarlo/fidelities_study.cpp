@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "boresight_analyses/fidelities/fidelity_study.hpp"
+#include "montecarlo/montecarlo_report.hpp"
 #include "montecarlo/several_rungs.hpp"
 #include "results/assumed.hpp"
 #include "results/report_files.hpp"
