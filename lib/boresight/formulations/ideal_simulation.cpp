@@ -21,6 +21,8 @@
 namespace boresight {
 namespace {
 
+constexpr const char* kComparing = "comparing two simulations of the ideal motion";
+
 // Of a mode's phase or decay, covered by one step of RK4 that is stable: its limit is 2.785.
 constexpr double kStableAngle = 2.5;
 
@@ -153,20 +155,24 @@ double difference(const BodyMotion& x, const BodyMotion& y, double length) {
 // Largest difference of two motions at the knots of the coarser one and between them.
 double difference(const IdealMotion& coarse, const Knots& knots, const IdealMotion& fine, double length) {
   double worst = 0.0;
-  for (std::size_t k = 0; k < knots.size(); ++k)
+  for (std::size_t k = 0; k < knots.size(); ++k) {
+    work_reached(kComparing, static_cast<double>(k) / static_cast<double>(knots.size()));
     for (const double t : {knots[k].t, 0.5 * (knots[k].t + knots[std::min(k + 1, knots.size() - 1)].t)})
       for (std::size_t b = 0; b < knots[k].bodies.size(); ++b) {
         const int body = static_cast<int>(b);
         worst = std::max(worst, difference(coarse.body(t, body), fine.body(t, body), length));
       }
+  }
   return worst;
 }
 
 double difference(const Knots& coarse, const Knots& fine, double length) {
   double worst = 0.0;
-  for (std::size_t k = 0; k < coarse.size(); ++k)
+  for (std::size_t k = 0; k < coarse.size(); ++k) {
+    work_reached(kComparing, static_cast<double>(k) / static_cast<double>(coarse.size()));
     for (std::size_t b = 0; b < coarse[k].bodies.size(); ++b)
       worst = std::max(worst, difference(coarse[k].bodies[b], fine[2 * k].bodies[b], length));
+  }
   return worst;
 }
 

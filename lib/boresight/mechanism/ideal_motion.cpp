@@ -188,9 +188,12 @@ void IdealMotion::fit(const Mechanism& mechanism, const std::vector<IdealState>&
   };
   const int width = 7 * bodies_;
   std::vector<double> value, rate, acceleration;
-  value.reserve(static_cast<std::size_t>(width) * knots_);
+  for (std::vector<double>* all : {&value, &rate, &acceleration})
+    all->reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(knots_));
   std::vector<Quat> last(bodies_, Quat::Identity());
+  constexpr int kMany = 4096;  // fewer take no time, and pieces of a motion are fitted while it is followed
   for (const IdealState& s : knots) {
+    if (knots_ > kMany) work_reached("tabling the ideal motion", (s.t - knots.front().t) / duration_);
     for (int b = 0; b < bodies_; ++b) {
       const BodyMotion& body = s.bodies[b];
       Quat q(body.R);

@@ -198,7 +198,7 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
     std::vector<Knot> finer;
     finer.reserve(2 * cells + 1);
     for (int k = 0; k < cells; ++k) {
-      work_reached(kBuilding, 0.5 + 0.5 * k / cells);
+      work_reached(kBuilding, 0.5 + 0.25 * k / cells);
       finer.push_back(std::move(knots_[k]));
       finer.push_back(knot_at((k + 0.5) * spacing_, ideal, exact, parameters));
     }
@@ -207,7 +207,10 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
     cells *= 2;
     spacing_ *= 0.5;
     rows.clear();
-    for (const Knot& knot : knots_) append_row(grid, knot, rows);
+    for (int k = 0; k <= cells; ++k) {
+      work_reached(kBuilding, 0.75 + 0.25 * k / cells);
+      append_row(grid, knots_[k], rows);
+    }
     const double error = interpolation_error(rows, grid);
     if (error <= 16.0 * accuracy) break;
     if (0.5 * spacing_ >= finest) continue;

@@ -8,6 +8,7 @@
 
 #include "boresight/math/cross_matrix.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight/scene/clearance_scene.hpp"
 #include "boresight/scene/table_row.hpp"
 
@@ -153,10 +154,22 @@ TimeTable ClearanceScene::reactions(const Parameters& parameters) const {
   return TimeTable(spacing_, layout_.n, values);
 }
 
+namespace {
+
+// On many knots a table takes as long as the scene itself.
+void tabling(std::size_t knot, std::size_t knots) {
+  work_reached("tabling the opened mechanism's dynamics", static_cast<double>(knot) / static_cast<double>(knots));
+}
+
+}  // namespace
+
 SceneTables ClearanceScene::tables(const Parameters& parameters, SceneForm form) const {
   std::vector<double> rows;
   rows.reserve(knots_.size() * layout_.width);
-  for (const Knot& knot : knots_) append_row(parameters, knot, rows, false, form);
+  for (std::size_t k = 0; k < knots_.size(); ++k) {
+    tabling(k, knots_.size());
+    append_row(parameters, knots_[k], rows, false, form);
+  }
   SceneTables made{.layout = layout_,
                    .dynamics = TimeTable(spacing_, layout_.width, rows),
                    .start = start_of(parameters, knots_.front())};
@@ -166,13 +179,19 @@ SceneTables ClearanceScene::tables(const Parameters& parameters, SceneForm form)
 
 TimeTable ClearanceScene::pose_gain(int body) const {
   std::vector<double> values;
-  for (const Knot& knot : knots_) append(values, MatX(knot.T.middleRows<6>(6 * body)));
+  for (std::size_t k = 0; k < knots_.size(); ++k) {
+    tabling(k, knots_.size());
+    append(values, MatX(knots_[k].T.middleRows<6>(6 * body)));
+  }
   return TimeTable(spacing_, 6 * layout_.n, values);
 }
 
 TimeTable ClearanceScene::pose_gain_rate(int body) const {
   std::vector<double> values;
-  for (const Knot& knot : knots_) append(values, MatX(knot.T_rate.middleRows<6>(6 * body)));
+  for (std::size_t k = 0; k < knots_.size(); ++k) {
+    tabling(k, knots_.size());
+    append(values, MatX(knots_[k].T_rate.middleRows<6>(6 * body)));
+  }
   return TimeTable(spacing_, 6 * layout_.n, values);
 }
 

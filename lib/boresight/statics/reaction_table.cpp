@@ -76,6 +76,8 @@ VecX weight_and_inertia_on_coordinates(const Mechanism& mechanism, const Prepare
 
 namespace {
 
+constexpr const char* kTabling = "tabling the ideal joints' reactions";
+
 // What a spring does hangs on where journals lie.
 bool held_by_springs(const Parameters& parameters) {
   return std::any_of(parameters.spring.begin(), parameters.spring.end(),
@@ -123,7 +125,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
   MatX M, C;
   VecX r;
   for (int k = 0; k < scene.knots(); ++k) {
-    work_reached("tabling the ideal joints' reactions", static_cast<double>(k) / scene.knots());
+    work_reached(kTabling, 0.5 * k / scene.knots());
     const MatX& B = scene.offsets_per_coordinate(k);
     for (int c = 0; c < mechanism.clearances(); ++c)
       for (int i = 0; i < layout_.joints[c].offsets; ++i)
@@ -151,6 +153,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
   }
   largest_load_.assign(joints_.size(), 0.0);
   for (int i = 0; i < instants_; ++i) {
+    work_reached(kTabling, 0.5 + 0.5 * i / instants_);
     const Instant now = at(i);
     for (std::size_t c = 0; c < joints_.size(); ++c)
       largest_load_[c] = std::max(largest_load_[c], size(now.load[c].force, joints_[c]));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/load_time.hpp"
 
 namespace boresight {
@@ -20,6 +21,7 @@ double own_time(const IdealMotion& ideal, int bodies, double size) {
   const int instants = ideal.knots() > kFewKnots ? std::min(ideal.knots(), kMostInstants) : kInstants;
   IdealState state;
   for (int i = 0; i < instants; ++i) {
+    work_reached("looking how fast the ideal motion is", static_cast<double>(i) / instants);
     ideal.state(ideal.duration() * i / (instants - 1), state);
     for (int b = 0; b < bodies; ++b) {
       const BodyMotion& body = state.bodies[b];

@@ -69,6 +69,31 @@ TEST(SceneGrid, IsGivenUpWhenItsWatchWantsIt) {
   watch_work(nullptr);
 }
 
+// Where a grid is fine, rows and tables take as long as the scene itself: whoever watches hears of each knot.
+TEST(SceneGrid, IsHeardOfKnotByKnotUntilItsTablesAreThere) {
+  const auto mechanism = crank_slider("2*pi*5*t", "0.4 s");
+  const IdealMotion ideal = IdealMotion::kinematic(*mechanism);
+  static long looks;
+  static double latest;
+  watch_work([](const char*, double share) {
+    ++looks;
+    latest = share;
+    return true;
+  });
+  looks = 0;
+  const ClearanceScene scene(*mechanism, ideal, mechanism->parameters());
+  // The first grid's knots; of each finer one those between, and then all of its rows.
+  EXPECT_GT(looks, 3 * scene.knots() / 2);
+  EXPECT_GT(latest, 0.99);
+  for (const auto& table : {+[](const ClearanceScene&of, const Mechanism&m) { of.tables(m.parameters()); },
+                            +[](const ClearanceScene&of, const Mechanism&m) { of.pose_gain(m.boresight_body()); }}) {
+    looks = 0;
+    table(scene, *mechanism);
+    EXPECT_GE(looks, scene.knots());
+  }
+  watch_work(nullptr);
+}
+
 TEST(RestingRungs, StopWhereTheirCallerWantsThemTo) {
   const auto mechanism = crank_slider("2*pi*5*t", "0.4 s");
   for (const char* name : {"envelope", "quasistatic"}) {
