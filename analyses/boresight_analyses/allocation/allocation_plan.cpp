@@ -1,6 +1,7 @@
 #include "boresight_analyses/allocation/allocation_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "boresight/io/tried_value.hpp"
 #include "boresight/io/varied_paths.hpp"
@@ -38,12 +39,20 @@ std::vector<AllocationOption> read_fits(Cursor& table, ZoneLaw law, const std::v
   return options;
 }
 
+// A zone that its place swallows by rounding is none.
+void require_wide(Cursor& table, const AllocationEntry& of, double tolerance) {
+  constexpr double kNarrowest = 1e-9;
+  table.require(tolerance > kNarrowest * std::abs(of.least), "tolerance",
+                "more than a billionth of the value that its zone lies at");
+}
+
 std::vector<AllocationOption> read_processes(Cursor& table, const AllocationEntry& of, const SiUnit& unit,
                                              ZoneLaw law) {
   std::vector<AllocationOption> options;
   for (Cursor& entry : table.tables("processes")) {
     entry.only(of.is_error ? allocate_error_process_keys() : allocate_process_keys());
     const double tolerance = of.is_error ? entry.value("tolerance", unit) : entry.quantity("tolerance");
+    require_wide(entry, of, tolerance);
     const std::string name = entry.text("name");
     for (const AllocationOption& other : options)
       if (other.name == name) entry.fail_found("name", in_quotes(name) + " a second time", "a name of its own");
@@ -78,6 +87,7 @@ ContinuousTolerance read_curve(Cursor& table, const AllocationEntry& of, const S
   table.require(bounds.size() == 2 && bounds[0] > 0.0 && bounds[0] < bounds[1], "tolerance",
                 of.is_error ? "two values, the tightest and the widest tolerance"
                             : "two lengths, the tightest and the widest tolerance");
+  require_wide(table, of, bounds[0]);
   return {make_cost_curve(law, a, b, k, si), bounds[0], bounds[1]};
 }
 

@@ -38,7 +38,10 @@ const KeyTable& budget_keys() {
                     "out; from 2 to members."),
           seed_key(), confidence_key(p.confidence),
           time_key("sampling").usually("a 2000th of the motion").says("Spacing of the pointing histories."),
-          quantity("start", kDuration).usually("that of [index]").says("What the motion does before is left out."),
+          quantity("start", kDuration)
+              .at_least(0.0, "0 or more, and before the end of the motion")
+              .usually("that of [index]")
+              .says("What the motion does before is left out."),
           time_key("window")
               .sometimes("needed for MPE, RPE, PDE and PRE")
               .says("Length of the window over which MPE, RPE, PDE and PRE take their means. Windows begin at every "
@@ -110,6 +113,7 @@ const KeyTable& budget_requirement_keys() {
                    .says("What the error shall not exceed."),
                quantities("exposures", kDurationRange)
                    .at_least_of(1, "at least one")
+                   .above(0.0, "at least two samples of the history each")
                    .sometimes("with index = \"RPE\" only; left out, the budget's window")
                    .says("Jitter by exposure time: windows of its own, over each of which RPE keeps its own limit."),
                values("limits", "the index")
@@ -236,6 +240,7 @@ const KeyTable& budget_contributor_keys() {
               .says("Axes of its own that it is given in, such as those of a sensor's head."),
           numbers("axis_correlation")
               .of_length({1, 3}, "one coefficient of two axes, three of three")
+              .inside_of(-1.0, 1.0, "coefficients that a correlation matrix can have, positive definite")
               .sometimes("left out, its axes are independent; not with period, measured or error")
               .says("How its axes depend on each other: of two axes one coefficient, of three [xy, xz, yz]."),
           time_key("period")

@@ -202,9 +202,11 @@ const KeyTable& calibrate_parameter_keys() {
                        "Lower bound; of a clearance more than 0."),
           of_parameter("upper", "ten times start, where the parameter may be as large; of an error likewise",
                        "Upper bound."),
-          of_parameter("prior", "none: the data alone decide",
-                       "What was known of it before: the standard deviation of its distance from start (a tolerance), "
-                       "or a share of start, such as \"20 %\". The fit weighs it like a reading.")}};
+          value("prior", "the parameter")
+              .above(0.0, "more than 0")
+              .usually("none: the data alone decide")
+              .says("What was known of it before: the standard deviation of its distance from start (a tolerance), "
+                    "or a share of start, such as \"20 %\". The fit weighs it like a reading.")}};
   return table_of_keys;
 }
 

@@ -148,6 +148,9 @@ DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::
     table.only(planes_keys());
     const double reach = read_zone_reach(table, "width", unit);
     table.finish();
+    constexpr double kNarrowest = 1e-9;  // what the parameter's own value swallows by rounding is no zone
+    table.require(reach > kNarrowest * std::abs(nominal), "width",
+                  "more than a billionth of the value that the planes lie about");
     distribution = make_between_planes(nominal, reach, read_zone_law(entry));
   }
   if (entry.has("cylinder"))
