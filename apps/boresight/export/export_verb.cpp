@@ -147,7 +147,8 @@ class ExportVerb : public Verb {
       const SampleStore store(file);
       const std::filesystem::path table = to / file.filename().replace_extension(".csv");
       const std::uint64_t rows = write_table(store, table);
-      if (!command.quiet) tell("{}: {}\n", how_many(rows, "sample"), table.string());
+      const bool points = file.filename().string().starts_with("points");  // of a tail that is not whole
+      if (!command.quiet) tell("{}: {}\n", how_many(rows, points ? "point" : "sample"), table.string());
       if (store.damage().empty()) continue;
       fmt::print(stderr, "boresight: {}\n", printable(store.damage()));
       damaged = true;

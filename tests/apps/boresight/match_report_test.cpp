@@ -49,13 +49,15 @@ TEST(ConstraintTable, SaysWhichRungEachValueIsOfAndWhatTheConfirmationFound) {
   result.active = {false};
   const MatchStudy matched{command, study, mechanism, rung, plan, result, {}, ""};
   const auto columns = [&] {
+    const report::Table table = constraint_table(matched);
     std::vector<std::string> names;
-    for (const report::Column& column : constraint_table(matched).columns) names.push_back(column.label);
+    for (const report::Column& column : table.columns) names.push_back(column.label);
     return names;
   };
   const auto cells = [&] {
+    const report::Table table = constraint_table(matched);
     std::vector<std::string> texts;
-    for (const nlohmann::json& cell : constraint_table(matched).rows.at(0)) texts.push_back(cell);
+    for (const nlohmann::json& cell : table.rows.at(0)) texts.push_back(cell);
     texts.erase(texts.begin());  // which constraint
     return texts;
   };

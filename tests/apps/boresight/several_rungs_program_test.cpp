@@ -125,7 +125,7 @@ TEST_F(SeveralRungsProgram, ExportWritesATableForEachRungAndOneNumberIsOneDraw) 
 
 TEST_F(SeveralRungsProgram, ExportSaysWhyATailHasNoSamples) {
   study(
-      "[montecarlo]\nrequirement = { limit = \"0.3 mm\", probability = 0.9, confidence = 0.9 }\n"
+      "[montecarlo]\nrequirement = { limit = \"0.22 mm\", probability = 0.9, confidence = 0.9 }\n"
       "tail = { cheap = \"envelope\", exact = \"quasistatic\", budget = \"0.2 s\", pilot = 10 }\n");
   const Ended ended = ask("montecarlo");
   ASSERT_LE(ended.status, 1) << ended.err;
