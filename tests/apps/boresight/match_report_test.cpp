@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "boresight/io/mechanism_file.hpp"
 
 namespace boresight::app {
@@ -43,7 +45,7 @@ TEST(ConstraintTable, SaysWhichRungEachValueIsOfAndWhatTheConfirmationFound) {
   study.index = {"boresight_error", "max"};
   const RungChoice rung{.name = "quasistatic", .why = ""};
   MatchingPlan plan;
-  plan.constraints.push_back({.measure = {}, .at_most = 50.0 / 206264.806, .unit = "arcsec"});
+  plan.constraints.push_back({.measure = {}, .at_most = 50.0 * std::numbers::pi / 648000.0, .unit = "arcsec"});
   MatchingResult result;
   result.constraint_values = {2.0e-4};
   result.active = {false};
