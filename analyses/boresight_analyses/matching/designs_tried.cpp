@@ -43,6 +43,7 @@ DesignsTried designs_tried(const MatchingPlan& plan, const Mechanism& mechanism,
   if (!scatters) return tried;
   tried.statistic = plan.objective.statistic_of(plan.samples);
   tried.scene_varies = scene_varies(*plan.inputs);
+  tried.lanes = !asks_peak_acceleration(plan);
   tried.runs = static_cast<std::uint64_t>(designs * static_cast<double>(plan.samples));
   return tried;
 }

@@ -124,4 +124,10 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
   return plan;
 }
 
+bool asks_peak_acceleration(const MatchingPlan& plan) {
+  bool asks = plan.objective.measure == Measure::peak_acceleration;
+  for (const MatchingConstraint& c : plan.constraints) asks = asks || c.measure.measure == Measure::peak_acceleration;
+  return asks;
+}
+
 }  // namespace boresight

@@ -60,4 +60,7 @@ struct MatchingPlan {
 MatchingPlan read_matching_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
                                 const AcceptsSetting& accepts, const AcceptsSettings& accepts_all = {});
 
+// Of the objective or a constraint: what lanes do not say.
+bool asks_peak_acceleration(const MatchingPlan& plan);
+
 }  // namespace boresight

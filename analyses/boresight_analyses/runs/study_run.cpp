@@ -142,7 +142,9 @@ RungChoice StudyRun::rung_of_designs(const DesignsTried& tried, const std::strin
     if (std::optional<RungChoice> begun_with = stored_choice(*found); begun_with && begun_with->pilot)
       return std::move(*begun_with);
   }
-  RungQuestion question{.wants_multibody = !options_.run.formulation.empty() || !options_.run.stabilisation.empty()};
+  RungQuestion question{.wants_multibody = !options_.run.formulation.empty() || !options_.run.stabilisation.empty(),
+                        .integrators = true,
+                        .lanes = tried.lanes};
   if (!tried.statistic) {
     std::vector<Parameters> motions;
     for (const std::vector<Parameters>& samples : tried.samples)

@@ -68,6 +68,7 @@ struct DesignsTried {
   std::optional<ScatterStatistic> statistic = {};  // of its samples; nothing: each one is a motion of its own
   bool scene_varies = true;                        // over the samples of one design
   std::uint64_t runs = 0;                          // that the study will make in all; 0: not known
+  bool lanes = false;                              // designs are judged on lanes where these serve
 };
 
 // What the steps do to a study's answer, relative.

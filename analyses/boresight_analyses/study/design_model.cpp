@@ -18,11 +18,14 @@ DesignModel design_model(RungChoice& choice, const DesignsAsked& asked) {
   const bool lanes = asked.samples && !asked.peak_acceleration && choice.name == "perturbation" &&
                      LaneSampleModel::serve(*asked.mechanism, asked.index, asked.run);
   if (lanes) {
+    const double by_accuracy = kLaneTolerance * std::min(1.0, asked.accuracy / kAccuracyOfLaneTolerance);
+    // Without an integrator it is one of lanes, which the pilot found.
+    const bool found = choice.tolerance > 0.0 && choice.integrator.empty();
+    choice.tolerance = asked.run.tolerance > 0.0 ? asked.run.tolerance
+                       : found                   ? std::min(choice.tolerance, by_accuracy)
+                                                 : by_accuracy;
     choice.step = 0.0;
     choice.integrator.clear();
-    choice.tolerance = asked.run.tolerance > 0.0
-                           ? asked.run.tolerance
-                           : kLaneTolerance * std::min(1.0, asked.accuracy / kAccuracyOfLaneTolerance);
     model.run.tolerance = choice.tolerance;
     model.samples =
         sample_model(choice.name, asked.mechanism, asked.parameters_of, asked.index, model.run, asked.scene_varies);

@@ -154,6 +154,8 @@ class PilotOfScatter {
       setups.push_back({.rung = "perturbation", .tolerance = kLaneTolerance, .lanes = true});
     else if (const double step = step_of_perturbation(); step > 0.0)
       setups.push_back({.rung = "perturbation", .step = step});
+    else if (!perturbation_refused_ && !options_.integrators)
+      setups.push_back({.rung = "perturbation", .integrator = "rosenbrock", .tolerance = kPerturbationTolerance});
     if (options_.integrators && options_.step == 0.0 && !lanes_serve())
       setups.push_back({.rung = "perturbation", .integrator = "rosenbrock", .tolerance = kTolerancesOfScatter[0]});
     return setups;
@@ -183,7 +185,7 @@ class PilotOfScatter {
     return setups;
   }
 
-  // Perturbation's own, for all samples; 0 where it cannot follow them, which is then told.
+  // Perturbation's own, for all samples; 0 where it takes an integrator of its own, or cannot follow them, which is then told.
   double step_of_perturbation() {
     if (options_.step > 0.0) return options_.step;
     if (perturbation_step_ >= 0.0) return perturbation_step_;
@@ -193,6 +195,7 @@ class PilotOfScatter {
       perturbation_step_ = common_step("perturbation", mechanism_, first, {});
     } catch (const ComputationError& failure) {
       perturbation_step_ = 0.0;
+      perturbation_refused_ = true;
       PilotTrial refused;
       refused.rung = "perturbation";
       refused.refusal = failure.what();
@@ -339,6 +342,7 @@ class PilotOfScatter {
   ScatterDifference reference_;
   std::map<const SetupSamples*, std::string> why_refused_;
   double perturbation_step_ = -1.0;
+  bool perturbation_refused_ = false;
   int runs_ = 0;
   PilotResult result_;
 };

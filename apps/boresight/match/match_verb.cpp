@@ -36,12 +36,6 @@ Json design_json(const MatchingPlan& plan, const std::vector<double>& design) {
   return json;
 }
 
-bool asks_peak_acceleration(const MatchingPlan& plan) {
-  bool asks = plan.objective.measure == Measure::peak_acceleration;
-  for (const MatchingConstraint& c : plan.constraints) asks = asks || c.measure.measure == Measure::peak_acceleration;
-  return asks;
-}
-
 // What a rung without dynamics answers by zero, whatever the design.
 bool asks_how_contacts_move(const MatchingPlan& plan) {
   const auto of_motion = [](const MeasureChoice& m) { return m.measure != Measure::index; };

@@ -70,6 +70,34 @@ TEST(DesignsTried, HaveAPilotFlownOfStandingErrorsWithoutPlay) {
   EXPECT_TRUE(small.pilot->met);
 }
 
+// As lanes judge them: the paper's mechanism took multibody, at a hundred times the cost.
+TEST(DesignsTried, HaveLanesTriedWhereTheseJudgeThem) {
+  const auto mechanism = std::make_shared<const Mechanism>(
+      read_mechanism(BORESIGHT_EXAMPLES "/3-rrcpr/3-rrcpr.toml", {{"motion.duration", "100 ms"}}));
+  const auto plan_of = [&](const std::string& more) {
+    Document document = Document::from_text(
+        "[match]\nminimise = \"free_flight_share\"\nover = \"mean\"\nsamples = 48\n" + more +
+            "[[match.variable]]\nparameter = \"payload.mass\"\nfrom = \"0 kg\"\nto = \"150 kg\"\n[[random]]\nparameter "
+            "= "
+            "\"clearance.F1.contact.restitution\"\ndistribution = { uniform = { min = 0.85, max = 0.95 } }\n",
+        "study.toml");
+    Cursor root(document);
+    return read_matching_plan(root, Study{}, mechanism->description(), [](const Setting&) {});
+  };
+  const MatchingPlan flights = plan_of("");
+  ASSERT_TRUE(designs_tried(flights, *mechanism, 85.0).lanes);
+  const StudyRun run(mechanism, {.accuracy = 0.03, .index = {"position_error", "max"}});
+  const RungChoice choice = run.rung_of_designs(designs_tried(flights, *mechanism, 85.0), "none.db");
+  ASSERT_TRUE(choice.pilot) << choice.why;
+  EXPECT_EQ(choice.name, "perturbation") << choice.why;
+  EXPECT_TRUE(choice.pilot->trials[choice.pilot->chosen].lanes);
+  EXPECT_FALSE(
+      designs_tried(plan_of("[[match.constraint]]\nmeasure = \"peak_acceleration\"\nat_most = \"100 m/s^2\"\n"),
+                    *mechanism, 85.0)
+          .lanes)
+      << "lanes say no accelerations";
+}
+
 TEST(DesignsTried, TakeTheRungThatTheDesignWhichAsksForMostNeeds) {
   const auto mechanism = hexapod();
   // One leg is as drawn at one corner of the box and wrong by a fiftieth of its length at the other.

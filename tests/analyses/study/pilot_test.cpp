@@ -1,7 +1,7 @@
 // The pilot on scenes that ask for different rungs.
 #include "boresight_analyses/study/pilot.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 
@@ -170,6 +170,23 @@ TEST(PilotOfScatter, TakesLanesWhereTheyAnswerWhatTheStudyAsks) {
     apply(choice, run);
     EXPECT_EQ(run.tolerance, chosen(result).tolerance);
   }
+}
+
+// Perturbation chooses RODAS by itself, and has no step that all samples could take: it was passed over without a word, and multibody taken.
+TEST(PilotOfScatter, TriesEveryRungWhateverItMayChoose) {
+  const auto mechanism = rrcpr({{"motion.duration", "0.1 s"}});
+  for (const bool lanes : {false, true})
+    for (const bool integrators : {false, true}) {
+      PilotOptions options = of_scatter(0.03, {});
+      options.lanes = lanes;
+      options.integrators = integrators;
+      const PilotResult result = run_pilot(mechanism, scattered(*mechanism, 64), options);
+      std::vector<std::string> tried;
+      for (const PilotTrial& trial : result.trials) tried.push_back(trial.rung);
+      for (const char* rung : {"envelope", "quasistatic", "perturbation"})
+        EXPECT_THAT(tried, testing::Contains(rung)) << lanes << integrators;
+      EXPECT_EQ(chosen(result).rung, "perturbation") << result.why;
+    }
 }
 
 TEST(PilotOfScatter, ClimbsWhereClearanceIsLarge) {
