@@ -97,7 +97,7 @@ class Maker {
                                  tables[static_cast<std::size_t>(asked.interpretation)], values, windows);
     }
     b.parts = sub_budgets(
-        plan_, ensemble_, axes_, table(b, b.headline.index, b.headline.interpretation).lines,
+        plan_, ensemble_, of_steps_, axes_, table(b, b.headline.index, b.headline.interpretation).lines,
         judgements_.empty()
             ? judgements_
             : std::vector<Judgement>(judgements_.begin() + static_cast<std::ptrdiff_t>(plan_.requirements.size()),
@@ -169,11 +169,7 @@ class Maker {
       answer.model_error = std::max(answer.model_error, error);
       const AxisOf axis(asked.axis, axes_.count());
       raised.push_back(sizes_of(values[m], axis));
-      if (!(error > 0.0)) continue;
-      // A rung states its error relative to the largest value of a motion.
-      const std::vector<double> own =
-          sizes_of(index_values(asked.index, *ensemble_.mechanism(members_[m]), windows), axis);
-      const double missed = own.empty() ? 0.0 : error * *std::max_element(own.begin(), own.end());
+      const double missed = missed_of(ensemble_, members_[m], error, asked.index, windows, axis);
       for (double& size : raised.back()) size += missed;
     }
     if (!(answer.model_error > 0.0)) return answer;

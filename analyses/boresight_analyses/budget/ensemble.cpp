@@ -58,4 +58,11 @@ PointingHistory BudgetEnsemble::total(std::uint64_t member, const MemberVariant&
   return sum;
 }
 
+double missed_of(const BudgetEnsemble& ensemble, std::uint64_t member, double error, ErrorIndex index,
+                 const Windows& windows, const AxisOf& axis) {
+  if (!(error > 0.0)) return 0.0;
+  const std::vector<double> own = sizes_of(index_values(index, *ensemble.mechanism(member), windows), axis);
+  return own.empty() ? 0.0 : error * *std::max_element(own.begin(), own.end());
+}
+
 }  // namespace boresight

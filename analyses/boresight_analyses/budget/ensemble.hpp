@@ -54,4 +54,9 @@ class BudgetEnsemble {
   std::map<std::uint64_t, double> model_errors_;        // likewise, of the members as they are drawn
 };
 
+// By how much a member's sizes of an index may be too small. error: what the rung and its steps may be off by, relative to the largest value of a
+// motion; that of the mechanism alone counts.
+double missed_of(const BudgetEnsemble& ensemble, std::uint64_t member, double error, ErrorIndex index,
+                 const Windows& windows, const AxisOf& axis);
+
 }  // namespace boresight

@@ -58,10 +58,11 @@ double by_rule(const Held& held, const BudgetPlan& plan, const BudgetRequirement
 
 class Tree {
  public:
-  Tree(const BudgetPlan& plan, const BudgetEnsemble& ensemble, const BudgetAxes& axes,
+  Tree(const BudgetPlan& plan, const BudgetEnsemble& ensemble, double of_steps, const BudgetAxes& axes,
        const std::vector<ClassicalLine>& lines, const std::vector<Judgement>& judgements)
       : plan_(plan),
         ensemble_(ensemble),
+        of_steps_(of_steps),
         axes_(axes),
         lines_(lines),
         judgements_(judgements),
@@ -92,22 +93,39 @@ class Tree {
                 .unit = part.unit};
     if (held.mechanism) b.holds.emplace_back(kMechanism);
     for (const std::size_t i : held.contributors) b.holds.push_back(plan_.contributors[i].name);
-    std::vector<std::vector<double>> sizes;
+    const AxisOf axis(headline_.axis, axes_.count());
+    std::vector<std::vector<double>> sizes, raised;
     std::int64_t failed = 0;
     for (std::uint64_t member = 0; member < plan_.members; ++member) {
       const PointingHistory sum = sum_of(held, ensemble_, member);
-      if (sum.error.empty())
+      if (sum.error.empty()) {
         ++failed;
-      else
-        sizes.push_back(sizes_of(index_values(headline_.index, sum, plan_.windows), {headline_.axis, axes_.count()}));
+        continue;
+      }
+      sizes.push_back(sizes_of(index_values(headline_.index, sum, plan_.windows), axis));
+      if (!held.mechanism) continue;
+      const double error = of_steps_ + ensemble_.model_error(member);
+      b.model_error = std::max(b.model_error, error);
+      raised.push_back(sizes.back());
+      const double missed = missed_of(ensemble_, member, error, headline_.index, plan_.windows, axis);
+      for (double& size : raised.back()) size += missed;
     }
     const EnsembleInTime in_time(std::move(sizes), failed);
     b.judgement = judgements_.empty() ? Judgement{.confidence = headline_.confidence, .why = ""} : judgements_[p];
     b.level = in_time.level(headline_.interpretation, headline_.probability, plan_.confidence, plan_.leave_out);
     b.by_rule = by_rule(held, plan_, headline_, lines_, axes_);
-    if (part.allocated > 0.0)
-      b.compliance = in_time.compliance(headline_.interpretation, part.allocated, headline_.probability, b.judgement,
-                                        plan_.leave_out);
+    if (part.allocated > 0.0) {
+      const auto judged = [&](const EnsembleInTime& of) {
+        return of.compliance(headline_.interpretation, part.allocated, headline_.probability, b.judgement,
+                             plan_.leave_out);
+      };
+      b.compliance = judged(in_time);
+      b.kept_by_members = b.compliance.met;
+      if (b.model_error > 0.0) {
+        b.within_error = judged(EnsembleInTime(std::move(raised), failed));
+        b.compliance.met = b.kept_by_members && b.within_error.met;
+      }
+    }
     for (const BudgetPart& inner : plan_.parts)
       if (inner.within == part.name && inner.allocated > 0.0) {
         b.parts_sum += inner.allocated;
@@ -118,6 +136,7 @@ class Tree {
 
   const BudgetPlan& plan_;
   const BudgetEnsemble& ensemble_;
+  const double of_steps_;
   const BudgetAxes& axes_;
   const std::vector<ClassicalLine>& lines_;
   const std::vector<Judgement>& judgements_;
@@ -127,9 +146,10 @@ class Tree {
 
 }  // namespace
 
-std::vector<SubBudget> sub_budgets(const BudgetPlan& plan, const BudgetEnsemble& ensemble, const BudgetAxes& axes,
-                                   const std::vector<ClassicalLine>& lines, const std::vector<Judgement>& judgements) {
-  return Tree(plan, ensemble, axes, lines, judgements).all();
+std::vector<SubBudget> sub_budgets(const BudgetPlan& plan, const BudgetEnsemble& ensemble, double of_steps,
+                                   const BudgetAxes& axes, const std::vector<ClassicalLine>& lines,
+                                   const std::vector<Judgement>& judgements) {
+  return Tree(plan, ensemble, of_steps, axes, lines, judgements).all();
 }
 
 std::string question_of(const BudgetPlan& plan, const BudgetAxes& axes, const BudgetPart& part) {

@@ -24,16 +24,21 @@ struct SubBudget {
   std::string unit = "";           // in which the study writes it
   ReportedInterval level = {};
   double by_rule = 0.0;
-  EnsembleInTime::Compliance compliance = {};  // with what is allocated
+  EnsembleInTime::Compliance compliance =
+      {};                        // with what is allocated; where it holds the mechanism, of `within_error` too
+  bool kept_by_members = false;  // it would be, were the model without fault
+  double model_error = 0.0;      // of rung and steps, relative, the largest of a member; 0 without the mechanism
+  EnsembleInTime::Compliance within_error = {};  // if each member were larger by its own
   Judgement judgement = {};
   // Allocations of the parts directly within it; 0: none.
   double parts_root_sum_square = 0.0, parts_sum = 0.0;
 };
 
 // In the order of the tree, a part before those within it. `lines`: of the classical table of the headline. `judgements`: of the plan's parts; each
-// as a first look where there are none.
-std::vector<SubBudget> sub_budgets(const BudgetPlan& plan, const BudgetEnsemble& ensemble, const BudgetAxes& axes,
-                                   const std::vector<ClassicalLine>& lines, const std::vector<Judgement>& judgements);
+// as a first look where there are none. of_steps: what these may be off by, relative to the largest value of a motion.
+std::vector<SubBudget> sub_budgets(const BudgetPlan& plan, const BudgetEnsemble& ensemble, double of_steps,
+                                   const BudgetAxes& axes, const std::vector<ClassicalLine>& lines,
+                                   const std::vector<Judgement>& judgements);
 
 // The question that an allocation asks of the plan's members.
 std::string question_of(const BudgetPlan& plan, const BudgetAxes& axes, const BudgetPart& part);

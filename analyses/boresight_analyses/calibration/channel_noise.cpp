@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "boresight/rungs/integrator_choice.hpp"
@@ -112,43 +113,91 @@ VecX noise_from_sizes(const CalibrationProblem& problem) {
   return sigma;
 }
 
-VecX pooled_where_alike(const CalibrationProblem& problem, const VecX& sigma, double apart_by) {
-  struct Group {
-    std::vector<int> channels;
-    double square = 0.0, readings = 0.0;  // square: mean over the readings
-    void add(const Group& other) {
-      square = (square * readings + other.square * other.readings) / (readings + other.readings);
-      readings += other.readings;
-      channels.insert(channels.end(), other.channels.begin(), other.channels.end());
-    }
+// Which instrument reads each channel, by its lowest channel: those that stand in one file of a run are read by one.
+static std::vector<int> instruments(const CalibrationProblem& problem) {
+  std::vector<int> of(problem.channels.size());
+  std::iota(of.begin(), of.end(), 0);
+  const auto join = [&](int a, int b) {
+    const int from = std::max(of[static_cast<std::size_t>(a)], of[static_cast<std::size_t>(b)]),
+              to = std::min(of[static_cast<std::size_t>(a)], of[static_cast<std::size_t>(b)]);
+    std::replace(of.begin(), of.end(), from, to);
   };
+  const int count = static_cast<int>(of.size());
+  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+    const std::vector<std::string>& file_of = problem.runs[r].data.file_of;  // empty: one file
+    for (int a = 0; a < count; ++a)
+      for (int b = a + 1; b < count; ++b) {
+        const int first = problem.column(static_cast<int>(r), a), second = problem.column(static_cast<int>(r), b);
+        if (first < 0 || second < 0) continue;
+        if (file_of.empty() || file_of[static_cast<std::size_t>(first)] == file_of[static_cast<std::size_t>(second)])
+          join(a, b);
+      }
+  }
+  return of;
+}
+
+namespace {
+
+struct AlikeChannels {
+  std::vector<int> channels;
+  double square = 0.0, readings = 0.0;  // square: mean over the readings
+  void add(const AlikeChannels& other) {
+    square = (square * readings + other.square * other.readings) / (readings + other.readings);
+    readings += other.readings;
+    channels.insert(channels.end(), other.channels.begin(), other.channels.end());
+  }
+};
+
+// Puts neighbours by size together as long as `alike` says so of the quieter and the noisier one.
+template <typename Alike>
+void put_together(std::vector<AlikeChannels>& groups, const Alike& alike) {
+  std::sort(groups.begin(), groups.end(),
+            [](const AlikeChannels& l, const AlikeChannels& r) { return l.square < r.square; });
+  for (std::size_t k = 0; k + 1 < groups.size();) {
+    if (alike(groups[k], groups[k + 1])) {
+      groups[k].add(groups[k + 1]);
+      groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+      k = k > 0 ? k - 1 : 0;
+    } else {
+      ++k;
+    }
+  }
+}
+
+}  // namespace
+
+VecX pooled_where_alike(const CalibrationProblem& problem, const VecX& sigma, double apart_by) {
   // Of the logarithm of a noise that is estimated by the median size of n residuals: 1 / (2 n 0.368), Huber (1981), section 5.1.
   constexpr double kVariance = 1.36;
   constexpr double kReadingsOfUnknown = 3.0;  // below, a fit follows the noise itself, and takes it for less and less
+  const std::vector<int> instrument = instruments(problem);
+  const auto too_few = [&](const AlikeChannels& quieter, const AlikeChannels&) {
+    return quieter.readings < kReadingsOfUnknown * problem.global_count();
+  };
+  const auto alike = [&](const AlikeChannels& quieter, const AlikeChannels& noisier) {
+    const double apart = 0.5 * std::log(noisier.square / quieter.square),
+                 allowed = apart_by * std::sqrt(kVariance / quieter.readings + kVariance / noisier.readings);
+    return apart <= allowed || too_few(quieter, noisier);
+  };
   VecX pooled = sigma;
   for (const bool angle : {false, true}) {
-    std::vector<Group> groups;
-    for (int c = 0; c < sigma.size(); ++c) {
-      if (is_angle(problem, c) != angle) continue;
-      Group group{{c}, sigma[c] * sigma[c], 0.0};
-      for (std::size_t r = 0; r < problem.runs.size(); ++r)
-        if (const int column = problem.column(static_cast<int>(r), c); column >= 0)
-          for (const double v : problem.runs[r].data.value.col(column)) group.readings += std::isfinite(v) ? 1.0 : 0.0;
-      if (group.readings > 0.0) groups.push_back(group);
-    }
-    std::sort(groups.begin(), groups.end(), [](const Group& l, const Group& r) { return l.square < r.square; });
-    for (std::size_t k = 0; k + 1 < groups.size();) {
-      const double apart = 0.5 * std::log(groups[k + 1].square / groups[k].square),
-                   allowed = apart_by * std::sqrt(kVariance / groups[k].readings + kVariance / groups[k + 1].readings);
-      if (apart <= allowed || groups[k].readings < kReadingsOfUnknown * problem.global_count()) {
-        groups[k].add(groups[k + 1]);
-        groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(k) + 1);
-        k = k > 0 ? k - 1 : 0;
-      } else {
-        ++k;
+    std::vector<AlikeChannels> of_all;
+    for (int i = 0; i < sigma.size(); ++i) {
+      std::vector<AlikeChannels> of_one;
+      for (int c = i; c < sigma.size(); ++c) {
+        if (instrument[static_cast<std::size_t>(c)] != i || is_angle(problem, c) != angle) continue;
+        AlikeChannels group{{c}, sigma[c] * sigma[c], 0.0};
+        for (std::size_t r = 0; r < problem.runs.size(); ++r)
+          if (const int column = problem.column(static_cast<int>(r), c); column >= 0)
+            for (const double v : problem.runs[r].data.value.col(column))
+              group.readings += std::isfinite(v) ? 1.0 : 0.0;
+        if (group.readings > 0.0) of_one.push_back(group);
       }
+      put_together(of_one, alike);
+      of_all.insert(of_all.end(), of_one.begin(), of_one.end());
     }
-    for (const Group& group : groups)
+    put_together(of_all, too_few);
+    for (const AlikeChannels& group : of_all)
       for (const int c : group.channels) pooled[c] = std::sqrt(group.square);
   }
   return pooled;

@@ -17,8 +17,10 @@ VecX noise_of_steps(const CalibrationProblem& problem);
 // A first guess for poses that have no neighbours: the median size of the readings of all channels of the same unit.
 VecX noise_from_sizes(const CalibrationProblem& problem);
 
-// The same of all channels of a unit whose noises their numbers of readings cannot tell apart, root mean square over the readings: weights of
-// each channel's own would follow the noise itself, and intervals be too narrow. What is a hundred times as quiet keeps its own.
+// The same of all channels of an instrument and a unit whose noises their numbers of readings cannot tell apart, root mean square over the readings:
+// weights of each channel's own would follow the noise itself, and intervals be too narrow. What is a hundred times as quiet keeps its own.
+// Channels that stand in one file of a run are of one instrument. Of others nothing says that they are alike: taken for that, two that differ by
+// a factor of two make intervals of 95 % that hold 86 %. Only what has too few readings to have a noise of its own takes that of another.
 // apart_by: standard deviations of their estimates from which on they count as unlike; 0: all of them that have readings enough to tell.
 VecX pooled_where_alike(const CalibrationProblem& problem, const VecX& sigma, double apart_by);
 

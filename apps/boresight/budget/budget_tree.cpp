@@ -12,6 +12,9 @@ namespace {
 std::string answer_of(const SubBudget& p) {
   if (p.allocated == 0.0) return "rolled up only";
   if (p.compliance.met) return "kept";
+  if (p.kept_by_members)
+    return "not shown to be kept: rung and steps may be off by up to " + readable_error(p.model_error) +
+           " of a member's mechanism";
   return p.level.value > p.allocated ? "not kept" : "not shown to be kept";
 }
 
@@ -71,6 +74,11 @@ Json tree_json(const Budget& b) {
     if (p.allocated > 0.0) {
       one["allocated"] = p.allocated;
       one["kept"] = p.compliance.met;
+      one["kept_by_members"] = p.kept_by_members;
+      if (p.model_error > 0.0) {
+        one["model_error"] = p.model_error;
+        one["share_within_model_error"] = p.within_error.share;
+      }
       one["shown"] = p.compliance.shown;
       one["shown_confidence"] = p.judgement.confidence;
       if (!p.judgement.why.empty()) one["judged"] = p.judgement.why;

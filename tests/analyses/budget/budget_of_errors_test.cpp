@@ -136,16 +136,23 @@ drives = { J1 = "0", J2 = "0", J3 = "0" }
   const std::string study =
       "[[random]]\nparameter = \"error.d\"\ndistribution = { normal = { mean = \"1 mrad\", sd = \"0.05 urad\" } }\n"
       "[budget]\nmembers = 40\nattribution = 2\n[[budget.requirement]]\nindex = \"APE\"\nlimit = \"0.6 urad\"\n"
-      "probability = 0.9\ninterpretation = \"ensemble\"\n";
-  const auto answer = [&](const char* rung) {
-    return make_budget(mechanism, study, "boresight_error", rung).budget.requirements.at(0);
-  };
-  const RequirementAnswer exact = answer("multibody"), linear = answer("perturbation");
+      "probability = 0.9\ninterpretation = \"ensemble\"\n"
+      "[[budget.part]]\nname = \"all\"\nmechanism = true\nallocated = \"0.6 urad\"\n";
+  const auto budget = [&](const char* rung) { return make_budget(mechanism, study, "boresight_error", rung).budget; };
+  const Budget by_multibody = budget("multibody"), by_perturbation = budget("perturbation");
+  const RequirementAnswer &exact = by_multibody.requirements.at(0), &linear = by_perturbation.requirements.at(0);
   EXPECT_FALSE(exact.met_by_members);
   EXPECT_GT(exact.level.level.value, 0.9e-6);
   EXPECT_TRUE(linear.met_by_members) << linear.level.level.value;
   EXPECT_GT(linear.model_error, 1.0);
   EXPECT_FALSE(linear.compliance.met);
+  // The whole budget as a part of its own is judged likewise.
+  const SubBudget& part = by_perturbation.parts.at(0);
+  EXPECT_TRUE(part.kept_by_members);
+  EXPECT_EQ(part.model_error, linear.model_error);
+  EXPECT_EQ(part.within_error.share, linear.within_error.share);
+  EXPECT_FALSE(part.compliance.met);
+  EXPECT_FALSE(by_multibody.parts.at(0).kept_by_members);
 }
 
 // n_P sd is what one axis of a Gaussian error has. Of a level over the members 60 do not tell it, as it may be a third off by them; 2000 do. Of
