@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/study/geometric_sample_model.hpp"
 
 namespace boresight {
 namespace {
@@ -21,6 +22,11 @@ StudyDiscretisation measure_study_discretisation(std::shared_ptr<const Mechanism
   if (setup.stepless()) {
     found.measured = true;
     found.why = "this rung takes no steps";
+    return found;
+  }
+  if (GeometricSampleModel::serve(setup.rung, *mechanism)) {
+    found.measured = true;
+    found.why = "pure geometry, as no joint has play: poses take no steps";
     return found;
   }
   char text[200];

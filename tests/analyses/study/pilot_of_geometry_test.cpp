@@ -8,6 +8,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 #include "boresight_analyses/study/setup_samples.hpp"
+#include "boresight_analyses/study/study_error.hpp"
 #include "error_scenes.hpp"
 
 namespace boresight {
@@ -107,6 +108,20 @@ TEST(PilotOfGeometry, SpeaksOfNoImpactsAndOfNoSteps) {
     for (const char* word : {"step", "impact", "flight", "clearance"})
       EXPECT_EQ(choice.why.find(word), std::string::npos) << choice.why;
     EXPECT_NE(choice.why.find("no joint has play"), std::string::npos) << choice.why;
+  }
+}
+
+// Whatever the rung is called: runs at half a step were made, and the same numbers held against each other.
+TEST(PilotOfGeometry, MeasuresNoStepsWherePosesTakeNone) {
+  const auto mechanism = hexapod();
+  for (const char* rung : {"quasistatic", "perturbation"}) {
+    const StudyDiscretisation found =
+        measure_study_discretisation(mechanism, scattered(*mechanism, 0, 8, 20e-6), {.rung = rung},
+                                     {.index = kIndex, .statistic = {0.95}, .runs = 60});
+    EXPECT_TRUE(found.measured);
+    EXPECT_EQ(found.relative, 0.0);
+    EXPECT_EQ(found.cpu_seconds, 0.0);
+    EXPECT_NE(found.why.find("no steps"), std::string::npos) << found.why;
   }
 }
 
