@@ -92,8 +92,9 @@ TEST(DesignsTried, HaveLanesTriedWhereTheseJudgeThem) {
   EXPECT_EQ(choice.name, "perturbation") << choice.why;
   EXPECT_TRUE(choice.pilot->trials[choice.pilot->chosen].lanes);
   EXPECT_FALSE(
-      designs_tried(plan_of("[[match.constraint]]\nmeasure = \"peak_acceleration\"\nat_most = \"100 m/s^2\"\n"),
-                    *mechanism, 85.0)
+      designs_tried(
+          plan_of("[[match.constraint]]\nmeasure = \"peak_acceleration\"\nover = \"mean\"\nat_most = \"100 m/s^2\"\n"),
+          *mechanism, 85.0)
           .lanes)
       << "lanes say no accelerations";
 }
