@@ -304,7 +304,45 @@ class Assembler {
       if (!result_.drives.empty())
         result_.assumed.push_back({0, "drives stand still: write their courses in [motion]"});
     }
+    leave_out_circles();
     for (const auto& [name, mimic] : mimics_) follow(name, mimic);
+  }
+
+  // The joint that one moves with, as the mechanism names it; "": it is none of the mechanism's, or follows none.
+  std::string leader_of(const std::string& name) const {
+    const auto mimic = mimics_.find(name);
+    if (mimic == mimics_.end()) return {};
+    const auto leads = joint_of_.find(mimic->second.joint);
+    return leads == joint_of_.end() ? std::string() : leads->second;
+  }
+
+  // Joints that move with each other in a circle, or with themselves: that says of none how it moves, unless the user does of one.
+  void leave_out_circles() {
+    const auto given = [&](const std::string& name) {
+      return choices_.drives_given && result_.drives.count(name) != 0;
+    };
+    std::vector<std::string> circling;
+    for (const auto& [name, mimic] : mimics_) {
+      std::string circle = name, at = name;
+      bool moved = given(name);
+      for (std::size_t steps = 0; steps < mimics_.size(); ++steps) {
+        at = leader_of(at);
+        if (at.empty() || at == name) break;
+        moved = moved || given(at);
+        circle += ", " + at;
+      }
+      if (at != name || moved) continue;
+      circling.push_back(name);
+      result_.left_out.push_back(
+          {joint_called(name).origin.line,
+           name + " moving with " + mimic.joint + ": mimics in a circle (" + circle + ", " + name + ")"});
+    }
+    for (const std::string& name : circling) mimics_.erase(name);
+  }
+
+  JointDescription& joint_called(const std::string& name) {
+    return *std::find_if(result_.mechanism.joints.begin(), result_.mechanism.joints.end(),
+                         [&](const JointDescription& j) { return j.name == name; });
   }
 
   // Of a joint that moves with another one, the course follows from the other's.
@@ -314,17 +352,16 @@ class Assembler {
     if (const auto leads = joint_of_.find(mimic.joint); leads != joint_of_.end())
       if (const auto other = mimics_.find(leads->second); other != mimics_.end()) follow(other->first, other->second);
     if (choices_.drives_given && result_.drives.count(name) != 0) return;  // the user says how it moves
-    const auto joint = std::find_if(result_.mechanism.joints.begin(), result_.mechanism.joints.end(),
-                                    [&](const JointDescription& j) { return j.name == name; });
+    JointDescription& joint = joint_called(name);
     const auto leading = joint_of_.find(mimic.joint);
     const auto course = leading == joint_of_.end() ? result_.drives.end() : result_.drives.find(leading->second);
     if (course == result_.drives.end()) {
-      result_.left_out.push_back({joint->origin.line, name + " moving with " + mimic.joint + ", which is not driven"});
-      joint->driven = false;
+      result_.left_out.push_back({joint.origin.line, name + " moving with " + mimic.joint + ", which is not driven"});
+      joint.driven = false;
       result_.drives.erase(name);
       return;
     }
-    joint->driven = true;
+    joint.driven = true;
     result_.drives[name] = course->second == "0"
                                ? fmt::format("{}", mimic.offset)
                                : fmt::format("{}*({}) + {}", mimic.multiplier, course->second, mimic.offset);

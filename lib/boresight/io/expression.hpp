@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "boresight/math/course_search.hpp"
 #include "boresight/math/time_function.hpp"
 
 namespace boresight {
@@ -29,13 +30,6 @@ TimeFunctionPtr parse_expression(const std::string& text, const NamedExpressions
 
 // A function of q, a coordinate, and of t. Throws ValueFault likewise.
 CoordinateFunctionPtr parse_coordinate_function(const std::string& text);
-
-// The first of `samples` + 1 even times in [0, duration] at which value or a derivative is not finite; -1 if there is none.
-double first_time_not_finite(const TimeFunction& function, double duration, int samples = 400);
-
-// The first time at which value or rate jump, which no derivative at any one time shows; -1 where none is found. Looked for between
-// `samples` even times: where a course is not what its derivative adds up to, halves are, unless it jumps.
-double first_jump(const TimeFunction& function, double duration, int samples = 2000);
 
 // The sum of factor[k] * part[k].
 TimeFunctionPtr combination(std::vector<std::pair<double, TimeFunctionPtr>> parts);

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "boresight/io/mechanism_sections.hpp"
 #include "boresight/io/names_of.hpp"
 #include "boresight/keys/letters.hpp"
 #include "boresight/keys/physical_ranges.hpp"
 #include "boresight/keys/value_fault.hpp"
+#include "boresight/mechanism/course_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
@@ -101,16 +101,6 @@ std::pair<int, int> read_connects(Cursor& cursor, const MechanismDescription& me
   return {first, second};
 }
 
-namespace {
-
-std::string at_time(double t) {
-  char at[60];
-  std::snprintf(at, sizeof at, t == 0.0 || (t >= 1e-3 && t < 1e6) ? " at t = %f s" : " at t = %.6g s", t);
-  return at;
-}
-
-}  // namespace
-
 TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key, const std::string& text,
                                    double duration, const NamedExpressions& named, double scale) {
   TimeFunctionPtr function;
@@ -125,24 +115,17 @@ TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key,
 
 void require_finite(const Cursor& cursor, const std::string& key, const std::string& text, const TimeFunction& function,
                     double duration) {
-  const auto fail = [&](double t, const char* found, const char* expected) {
-    cursor.fail_found(key, in_quotes(text) + found + at_time(t), expected);
-  };
-  if (const double t = first_time_not_finite(function, duration); t >= 0.0)
-    fail(t, ", which is not finite or not smooth",
-         "an expression that is finite with its first two derivatives during the motion");
+  if (const std::optional<CourseFault> fault = not_finite(function, duration))
+    cursor.fail_found(key, in_quotes(text) + fault->found, fault->expected);
   if (const double t = first_time_too_large(function, duration); t >= 0.0)
-    fail(t, ", which is beyond anything real",
-         "an expression of at most 1e15, its first two derivatives of at most 1e18 (SI)");
+    cursor.fail_found(key, in_quotes(text) + ", which is beyond anything real" + at_time(t),
+                      "an expression of at most 1e15, its first two derivatives of at most 1e18 (SI)");
 }
 
 void require_continuous(const Cursor& cursor, const std::string& key, const std::string& text,
                         const TimeFunction& function, double duration) {
-  constexpr double kAtTheStart = 1e-12;  // of the duration: a corner there is found a little later
-  if (const double t = first_jump(function, duration); t >= 0.0)
-    cursor.fail_found(key,
-                      in_quotes(text) + ", which jumps or has a corner" + at_time(t < kAtTheStart * duration ? 0.0 : t),
-                      "a law whose value and rate are continuous: round a corner off, as abs(x) to sqrt(x^2 + e^2)");
+  if (const std::optional<CourseFault> fault = not_continuous(function, duration))
+    cursor.fail_found(key, in_quotes(text) + fault->found, fault->expected);
 }
 
 TimeFunctionPtr read_expression(Cursor& cursor, const std::string& key, double duration, const NamedExpressions& named,

@@ -7,6 +7,7 @@
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/drawn_joint.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/error_course.hpp"
 
 namespace boresight {
 namespace {
@@ -100,17 +101,6 @@ CoordinateFunctionPtr read_law(Cursor& cursor) {
   }
 }
 
-// A drive's error along the commanded motion, as far as the file says it.
-class ErrorAlongDrive final : public TimeFunction {
- public:
-  ErrorAlongDrive(CoordinateFunctionPtr law, TimeFunctionPtr drive) : law_(std::move(law)), drive_(std::move(drive)) {}
-  TimeValue at(double t) const override { return law_->at(drive_->at(t), t); }
-
- private:
-  CoordinateFunctionPtr law_;
-  TimeFunctionPtr drive_;
-};
-
 void check_name(const Cursor& cursor, const MechanismDescription& so_far, const std::string& name) {
   for (const ErrorDescription& other : so_far.errors) {
     if (other.name == name)
@@ -159,6 +149,9 @@ ErrorDescription read_error(Cursor& cursor, const MechanismDescription& so_far) 
       if (!joint.driven)
         cursor.fail_found("drive", in_quotes(joint.name) + ", which is not driven", "the name of a driven joint");
       error.law = read_law(cursor);
+      error.law_text = cursor.text("law");
+      error.law_origin = cursor.origin("law");
+      // Along a motion by poses the ideal motion looks at it (mechanism/error_course.hpp).
       if (const auto drive = so_far.motion.drives.find(error.joint); drive != so_far.motion.drives.end()) {
         const ErrorAlongDrive along(error.law, drive->second);
         require_finite(cursor, "law", cursor.text("law"), along, so_far.motion.duration);

@@ -172,6 +172,8 @@ struct ErrorDescription {
   double coefficient = 0.0;        // of expansion [1/K]
   double value = 0.0;              // [m, rad or K]
   Origin origin;
+  std::string law_text;  // as the file has it; "": not from a file
+  Origin law_origin;
 };
 
 // "m", "rad" or "K": what the error's value is measured in.

@@ -7,6 +7,7 @@
 
 #include "boresight/mechanism/continuation.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/error_course.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/motion_density.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
@@ -156,6 +157,7 @@ IdealMotion IdealMotion::kinematic(const Mechanism& mechanism) {
       IdealMotion motion(mechanism, knots, worst, read_drives);
       // A built mechanism's motion is nearly that of the drawn one, which is looked at once for all of them.
       if (!mechanism.built()) motion.lost_ = lost_motions(mechanism, motion);
+      if (!mechanism.built() && read_drives) require_laws_along(mechanism, motion);
       return motion;
     }
     if (2 * intervals > most) refuse_density(mechanism, coarse_at, 0.5 * spacing);
@@ -252,6 +254,13 @@ void IdealMotion::fit(const Mechanism& mechanism, const std::vector<IdealState>&
 void IdealMotion::drive_laws(double t, std::vector<TimeValue>& laws) const {
   for (std::size_t k = 0; k < driven_.size(); ++k)
     laws[driven_[k]] = drive_law_.empty() ? drive_spline_.at(t, static_cast<int>(k)) : drive_law_[k]->at(t);
+}
+
+TimeValue IdealMotion::drive_law(double t, int joint) const {
+  for (std::size_t k = 0; k < driven_.size(); ++k)
+    if (driven_[k] == joint)
+      return drive_law_.empty() ? drive_spline_.at(t, static_cast<int>(k)) : drive_law_[k]->at(t);
+  return {};
 }
 
 BodyMotion IdealMotion::body(double t, int body, BodyAcceleration* acceleration) const {

@@ -20,7 +20,8 @@ namespace boresight {
 
 class IdealMotion {
  public:
-  // Throws ComputationError, naming the time and what is lost, where the motion cannot be followed.
+  // Throws ComputationError, naming the time and what is lost, where the motion cannot be followed; InputError where a drive's error has
+  // no course along the drive that a prescribed pose makes of it.
   static IdealMotion kinematic(const Mechanism& mechanism);
 
   // From states at increasing times, first to last (a simulation without clearance). error: see error(). laws: of the
@@ -38,6 +39,8 @@ class IdealMotion {
 
   // Laws of all joints at t (zero where not driven); `laws` must have one entry per joint.
   void drive_laws(double t, std::vector<TimeValue>& laws) const;
+  // Of one of them.
+  TimeValue drive_law(double t, int joint) const;
   // One body's motion; acceleration may be null.
   BodyMotion body(double t, int body, BodyAcceleration* acceleration = nullptr) const;
   void state(double t, IdealState& state) const;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "boresight/math/cubic_at_middle.hpp"
+#include "boresight/mechanism/course_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -23,6 +25,12 @@ constexpr int kMostCellsOfLaws = 1 << 14;
 // What is left of the columns between the knots where the grid is finest must not be more.
 constexpr double kLargestMissOfColumns = 1e-3;
 
+std::string seconds(double time) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g s", time);
+  return text;
+}
+
 }  // namespace
 
 StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& commanded, std::vector<bool> wanted)
@@ -31,23 +39,32 @@ StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& co
   const double duration = mechanism.duration(), length = mechanism.characteristic_length();
   // A sixteenth of what the commanded motion is tabled with: no turn of it is overlooked.
   int cells = std::max(kFewestCellsOfColumns, commanded.knots() / 16);
-  const double cells_of_laws = duration / (kCellOfLoads * error_time(mechanism, commanded, wanted_));
-  cells = std::max(cells, static_cast<int>(std::min(cells_of_laws, double{kMostCellsOfLaws})));
-  const auto refuse_unless_held = [&](double knots) {
+  const auto held = [&](double knots) {
     // Knots, of all bodies; and of those that are asked for, the boresight body and now and then another one, two tables of four
     // coefficients a function.
-    const double bytes = knots * 8.0 * 6.0 * count() * (bodies_ + 8.0 * std::min(bodies_, kTabledBodies));
-    if (bytes > kMostTableBytes)
-      throw MotionTooDense(
-          "what standing errors do to the pose would take too much memory as a table over so long a motion; shorten "
-          "motion.duration to what has to be seen, or use the multibody rung, which needs no table");
+    return knots * 8.0 * 6.0 * count() * (bodies_ + 8.0 * std::min(bodies_, kTabledBodies)) <= kMostTableBytes;
   };
+  if (!held(2.0 * cells))
+    throw MotionTooDense(
+        "what standing errors do to the pose would take too much memory as a table over so long a motion; shorten "
+        "motion.duration to what has to be seen, or use the multibody rung, which needs no table");
+  // What asks for more from here on are the errors: one of them is named.
+  const std::vector<double> times = error_times(mechanism, commanded, wanted_);
+  const auto fastest = std::min_element(times.begin(), times.end());
+  if (fastest != times.end()) {
+    const double cells_of_laws = duration / (kCellOfLoads * least_error_time(mechanism, *fastest));
+    cells = std::max(cells, static_cast<int>(std::min(cells_of_laws, double{kMostCellsOfLaws})));
+    if (!held(2.0 * cells))
+      throw ComputationError("error." + mechanism.description().errors[fastest - times.begin()].name +
+                             " changes within " + seconds(*fastest) +
+                             ": what standing errors do to the pose would take too much memory as a table that shows "
+                             "it; the multibody rung needs no table of it");
+  }
   const auto at = [&](double t) {
     MatX G;
     influence.at(t, wanted_, G);
     return G;
   };
-  refuse_unless_held(2.0 * cells);
   spacing_ = duration / cells;
   for (int k = 0; k <= cells; ++k) {
     work_reached(kFollowing, 0.5 * k / cells);
@@ -57,15 +74,16 @@ StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& co
   VecX scale = VecX::Constant(6 * bodies_, 1.0);
   for (int b = 0; b < bodies_; ++b) scale.segment<3>(6 * b).setConstant(1.0 / length);
   for (int halving = 0;; ++halving) {
-    refuse_unless_held(2.0 * cells);
     std::vector<MatX> middles;
-    Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(count()), missed = largest;
+    Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(count()), missed = largest, missed_at = largest;
     for (int k = 0; k < cells; ++k) {
       work_reached(kFollowing, 0.5 + 0.5 * k / cells);
       middles.push_back(at((k + 0.5) * spacing_));
       const MatX& middle = middles.back();
       const MatX cubic = cubic_at_middle(knots_, k);
-      missed = missed.cwiseMax((scale.asDiagonal() * (middle - cubic)).cwiseAbs().colwise().maxCoeff());
+      const Eigen::RowVectorXd off = (scale.asDiagonal() * (middle - cubic)).cwiseAbs().colwise().maxCoeff();
+      missed_at = (off.array() > missed.array()).select((k + 0.5) * spacing_, missed_at);
+      missed = missed.cwiseMax(off);
       largest = largest.cwiseMax((scale.asDiagonal() * middle).cwiseAbs().colwise().maxCoeff());
     }
     std::vector<MatX> finer;
@@ -78,36 +96,61 @@ StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& co
     knots_ = std::move(finer);
     cells *= 2;
     spacing_ *= 0.5;
-    double error = 0.0;
+    Miss miss;
     for (int e = 0; e < count(); ++e)
-      if (largest[e] > 0.0) error = std::max(error, missed[e] / largest[e]);
+      if (largest[e] > 0.0) miss.add(missed[e] / largest[e], static_cast<std::size_t>(e), missed_at[e]);
     // What goes on a whole number of times between instants that halve the motion again and again is a constant at all of them.
-    if (error <= 16.0 * kAccuracy) error = missed_elsewhere(at, scale, largest);
+    if (miss.share <= 16.0 * kAccuracy) miss = missed_elsewhere(at, scale, largest);
     // The finer grid's own error is a sixteenth of what the coarser one missed.
-    if (error <= 16.0 * kAccuracy) break;
-    if (halving == kMostHalvingsOfColumns) {
-      if (error <= kLargestMissOfColumns) break;
-      throw ComputationError("what standing errors do to the pose changes within " + std::to_string(spacing_) +
-                             " s: a singular pose is near, or a drive's error ripples far faster than the motion; the "
-                             "multibody rung needs no table of it");
-    }
+    if (miss.share <= 16.0 * kAccuracy) break;
+    const bool last = halving == kMostHalvingsOfColumns;
+    if (last && miss.share <= kLargestMissOfColumns) break;
+    if (last || !held(2.0 * cells))
+      refuse_column(mechanism, commanded, miss, spacing_,
+                    last ? ", where a singular pose is near"
+                         : ", which would take too much memory as a table over the whole motion");
   }
   table_shifts(influence);
 }
 
-double StandingErrors::missed_elsewhere(const std::function<MatX(double)>& at, const VecX& scale,
-                                        const Eigen::RowVectorXd& largest) const {
+void StandingErrors::refuse_column(const Mechanism& mechanism, const IdealMotion& commanded, const Miss& miss,
+                                   double spacing, const char* unless_by_law) {
+  const ErrorDescription& error = mechanism.description().errors[miss.error];
+  // Whether the law alone is missed there by as much as the column, or the pose has a part in it.
+  bool by_law = false;
+  if (error.law) {
+    const auto law = [&](double t) { return error.law->at(commanded.drive_law(t, error.joint), t).value; };
+    double largest = std::abs(law(miss.t)), off = law(miss.t);
+    // The four knots of the coarser grid around the middle of a cell.
+    constexpr double kWeight[] = {-1.0 / 16.0, 9.0 / 16.0, 9.0 / 16.0, -1.0 / 16.0};
+    for (int i = 0; i < 4; ++i) {
+      const double there = law(std::clamp(miss.t + (2.0 * i - 3.0) * spacing, 0.0, mechanism.duration()));
+      largest = std::max(largest, std::abs(there));
+      off -= kWeight[i] * there;
+    }
+    constexpr double kAsMuch = 0.1;
+    by_law = std::abs(off) >= kAsMuch * miss.share * largest;
+  }
+  throw ComputationError("what error." + error.name + " does to the pose changes within " + seconds(spacing) +
+                         at_time(miss.t) +
+                         (by_law ? ", as its law does there, which no table of the motion follows" : unless_by_law) +
+                         "; the multibody rung needs no table of it");
+}
+
+StandingErrors::Miss StandingErrors::missed_elsewhere(const std::function<MatX(double)>& at, const VecX& scale,
+                                                      const Eigen::RowVectorXd& largest) const {
   // Cells in no order that a motion has, each at a place of its own.
   constexpr int kPlaces = 29;
   constexpr double kGolden = 0.6180339887498949;
-  double missed = 0.0;
+  Miss missed;
   for (int i = 1; i <= kPlaces; ++i) {
     const double place = std::fmod(i * kGolden, 1.0) * cells();
     const int k = std::min(static_cast<int>(place), cells() - 1);
     const MatX off = at(place * spacing_) - cubic_at(knots_, k, place - k);
     const Eigen::RowVectorXd size = (scale.asDiagonal() * off).cwiseAbs().colwise().maxCoeff();
     for (Eigen::Index e = 0; e < size.size(); ++e)
-      if (size[e] > 0.0) missed = std::max(missed, size[e] / std::max(largest[e], size[e]));
+      if (size[e] > 0.0)
+        missed.add(size[e] / std::max(largest[e], size[e]), static_cast<std::size_t>(e), place * spacing_);
   }
   return missed;
 }

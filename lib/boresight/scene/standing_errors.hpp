@@ -21,7 +21,8 @@ namespace boresight {
 class StandingErrors {
  public:
   // wanted: of which errors; the others count as zero. The grid is refined until its cubics meet the columns to kAccuracy of the largest
-  // value of each. Throws ComputationError as ErrorInfluence::at does; MotionTooDense where a table would need too much memory.
+  // value of each. Throws ComputationError as ErrorInfluence::at does, and naming the error that no grid holds; MotionTooDense where
+  // a table of the motion would need too much memory whatever its errors do.
   StandingErrors(const Mechanism& mechanism, const IdealMotion& commanded, std::vector<bool> wanted);
   static constexpr double kAccuracy = 1e-7;
   static constexpr int kFewestInstants = 1000;
@@ -52,9 +53,20 @@ class StandingErrors {
   int instants_a_cell() const { return std::max(2, (kFewestInstants + cells() - 1) / cells()); }
 
  private:
-  // The largest miss of the knots' cubics at places that are no fractions of the motion, relative to each column's largest.
-  double missed_elsewhere(const std::function<MatX(double)>& at, const VecX& scale,
-                          const Eigen::RowVectorXd& largest) const;
+  // By how much the knots' cubics miss a column at most, of its largest, and where.
+  struct Miss {
+    double share = 0.0, t = 0.0;
+    std::size_t error = 0;
+    void add(double share_there, std::size_t of_error, double at) {
+      if (share_there > share) *this = {share_there, at, of_error};
+    }
+  };
+  // At places that are no fractions of the motion.
+  Miss missed_elsewhere(const std::function<MatX(double)>& at, const VecX& scale,
+                        const Eigen::RowVectorXd& largest) const;
+  // Says why no grid holds a column, which the one of this spacing misses: its law, or else what is given.
+  [[noreturn]] static void refuse_column(const Mechanism& mechanism, const IdealMotion& commanded, const Miss& miss,
+                                         double spacing, const char* unless_by_law);
   void table_shifts(ErrorInfluence& influence);
   const TimeTable& kept(std::map<int, TimeTable>& tables, int body, bool rate) const;
 

@@ -136,6 +136,42 @@ TEST(Urdf, AJointThatMimicsAFreeOneIsFree) {
   EXPECT_THAT(grouped(a.left_out), testing::Contains(HasSubstr("k moving with j, which is not driven")));
 }
 
+// Base, a, b and c; the joints j, k and l between them, with what each holds.
+Drawing chain_of_three(const std::string& j, const std::string& k, const std::string& l) {
+  return read_urdf(
+      R"(<robot name="r"><link name="base"/><link name="a"/><link name="b"/><link name="c"/>
+    <joint name="j" type="continuous"><parent link="base"/><child link="a"/>)" +
+          j + R"(</joint>
+    <joint name="k" type="continuous"><parent link="a"/><child link="b"/>)" +
+          k + R"(</joint>
+    <joint name="l" type="continuous"><parent link="b"/><child link="c"/>)" +
+          l + R"(</joint></robot>)",
+      "r.urdf");
+}
+
+TEST(Urdf, MimicsInACircleAreLeftOutAndNamed) {
+  const Assembly pair =
+      assembled(chain_of_three("<mimic joint='k' multiplier='2'/>", "<mimic joint='j'/>", "<mimic joint='k'/>"), {});
+  EXPECT_THAT(grouped(pair.left_out), testing::Contains(HasSubstr("j moving with k: mimics in a circle (j, k, j)")));
+  EXPECT_THAT(grouped(pair.left_out), testing::Contains(HasSubstr("k moving with j: mimics in a circle (k, j, k)")));
+  // One that follows the circle is none of it.
+  EXPECT_THAT(grouped(pair.left_out), testing::Not(testing::Contains(HasSubstr("l moving"))));
+  const Assembly own = assembled(chain_of_three("<mimic joint='j'/>", "", ""), {});
+  EXPECT_THAT(grouped(own.left_out), testing::Contains(HasSubstr("j moving with j: mimics in a circle (j, j)")));
+}
+
+TEST(Urdf, MimicsInACircleFollowTheOneThatTheUserMoves) {
+  ImportChoices choices;
+  choices.drives_given = true;
+  choices.drives["k"] = "sin(t)";
+  const Assembly a = assembled(
+      chain_of_three("<mimic joint='k' multiplier='2'/>", "<mimic joint='l'/>", "<mimic joint='j'/>"), choices);
+  EXPECT_THAT(grouped(a.left_out), testing::Not(testing::Contains(HasSubstr("circle"))));
+  ASSERT_EQ(a.drives.count("l"), 1u);
+  EXPECT_EQ(a.drives.at("k"), "sin(t)");
+  EXPECT_NEAR(parse_expression(a.drives.at("l"))->at(1.0).value, 2.0 * std::sin(1.0), 1e-12);
+}
+
 TEST(Urdf, TheUsersOwnCourseOfAJointStandsAgainstItsMimic) {
   ImportChoices choices;
   choices.drives_given = true;
