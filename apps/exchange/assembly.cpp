@@ -348,10 +348,10 @@ class Assembler {
   // Of a joint that moves with another one, the course follows from the other's.
   void follow(const std::string& name, const Mimic& mimic) {
     if (!followed_.insert(name).second) return;
+    if (choices_.drives_given && result_.drives.count(name) != 0) return;  // the user says how it moves
     // The other may follow a third one, and first of all has to.
     if (const auto leads = joint_of_.find(mimic.joint); leads != joint_of_.end())
       if (const auto other = mimics_.find(leads->second); other != mimics_.end()) follow(other->first, other->second);
-    if (choices_.drives_given && result_.drives.count(name) != 0) return;  // the user says how it moves
     JointDescription& joint = joint_called(name);
     const auto leading = joint_of_.find(mimic.joint);
     const auto course = leading == joint_of_.end() ? result_.drives.end() : result_.drives.find(leading->second);
