@@ -62,7 +62,8 @@ std::string fault_of_reader(const fs::path& file, const std::string& kind) {
   }
 }
 
-void expect_one_verdict(const std::string& kind) {
+// one_in: of the damaged files, every so many-th; reading the paper's mechanism for each study takes its time.
+void expect_one_verdict(const std::string& kind, std::size_t one_in) {
   const Copies copies;
   const SchemaVerdict schema(kind);
   std::set<std::pair<std::string, std::string>> seen;
@@ -74,7 +75,7 @@ void expect_one_verdict(const std::string& kind) {
     if (file.kind != kind) continue;
     const fs::path damaged = copies.beside(file.path);
     for_each_damage(Document::from_file(file.path).root(), [&](const Damage& damage, const Node& root) {
-      if (!seen.emplace(damage.at, damage.what).second) return;
+      if (!seen.emplace(damage.at, damage.what).second || seen.size() % one_in != 0) return;
       std::ofstream(damaged) << toml_of(root);
       std::string by_reader;
       const std::string by_schema = schema.fault_of(json_of(root));
@@ -91,9 +92,13 @@ void expect_one_verdict(const std::string& kind) {
   EXPECT_GT(seen.size(), 1000u);
 }
 
-TEST(Schemas, JudgeDamagedStudiesAsTheirReadersDo) { expect_one_verdict("study"); }
+TEST(Schemas, JudgeDamagedStudiesAsTheirReadersDo) { expect_one_verdict("study", 11); }
 
-TEST(Schemas, JudgeDamagedMechanismsAsTheirReaderDoes) { expect_one_verdict("mechanism"); }
+TEST(Schemas, JudgeDamagedMechanismsAsTheirReaderDoes) { expect_one_verdict("mechanism", 3); }
+
+TEST(SchemasNight, JudgeEveryDamagedStudyAsItsReaderDoes) { expect_one_verdict("study", 1); }
+
+TEST(SchemasNight, JudgeEveryDamagedMechanismAsItsReaderDoes) { expect_one_verdict("mechanism", 1); }
 
 }  // namespace damaged_schema_test
 }  // namespace boresight::app
