@@ -352,13 +352,19 @@ TEST(Matching, AConfirmationWhoseRunsFailConfirmsNothingAndSaysSo) {
   EXPECT_THAT(r.confirmation[0].sentence, testing::HasSubstr("the optimum is not confirmed"));
 }
 
-TEST(Matching, AConfirmationThatBreaksALimitNamesIt) {
-  const Valley model(0.0, 0.0), wide(0.0, 4.0);
+// The mean is sought, the worst of the samples has a limit.
+MatchingPlan plan_with_the_worst_limited(double at_most) {
   MatchingPlan p = plan(Over::mean);
   p.map = p.front = 0;
-  MatchingConstraint limit{.measure = p.objective, .at_most = 1.5};
+  MatchingConstraint limit{.measure = p.objective, .at_most = at_most};
   limit.measure.over = Over::worst;
   p.constraints = {limit};
+  return p;
+}
+
+TEST(Matching, AConfirmationThatBreaksALimitNamesIt) {
+  const Valley model(0.0, 0.0), wide(0.0, 4.0);
+  const MatchingPlan p = plan_with_the_worst_limited(1.5);
   DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 40, .seed = 1});
   DesignEvaluator confirm(wide, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
   const MatchingResult r = run_matching(p, evaluator, &confirm, "exact", {});
@@ -372,11 +378,7 @@ TEST(Matching, AConfirmationThatBreaksALimitNamesIt) {
 // The worst of samples about a mean that both agree on: each rung has a value of its own.
 TEST(Matching, AConfirmationHasTheConstraintsValuesOfItsOwnRung) {
   const Valley model(0.0, 0.0), wide(0.0, 0.01);
-  MatchingPlan p = plan(Over::mean);
-  p.map = p.front = 0;
-  MatchingConstraint limit{.measure = p.objective, .at_most = 20.0};
-  limit.measure.over = Over::worst;
-  p.constraints = {limit};
+  const MatchingPlan p = plan_with_the_worst_limited(20.0);
   DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 40, .seed = 1});
   DesignEvaluator confirm(wide, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
   const MatchingResult agreed = run_matching(p, evaluator, &confirm, "exact", {});
