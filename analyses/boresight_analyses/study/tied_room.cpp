@@ -11,7 +11,11 @@ namespace boresight {
 
 TiedRoom::TiedRoom(const Mechanism& mechanism, const OffsetLayout& layout, const std::vector<JointPlay>& plays,
                    std::vector<bool> asked)
-    : mechanism_(mechanism), layout_(layout), plays_(plays), asked_(std::move(asked)) {}
+    : mechanism_(mechanism),
+      layout_(layout),
+      plays_(plays),
+      asked_(std::move(asked)),
+      joint_coordinates_(plays.size()) {}
 
 void TiedRoom::take(const std::vector<BodyMotion>& bodies) {
   const double length = mechanism_.characteristic_length();
@@ -28,6 +32,8 @@ void TiedRoom::take(const std::vector<BodyMotion>& bodies) {
   for (Eigen::Index b = 0; b < motions.rows(); b += 6) motions.middleRows(b + 3, 3) /= length;
   moved_.setZero(layout_.size(), motions.cols());
   for (int c = 0; c < layout_.clearances(); ++c) {
+    if (layout_.joint(c).twists)
+      joint_coordinates_[static_cast<std::size_t>(c)].twist = twist_of_insert(mechanism_, c, bodies);
     const int of_joint = mechanism_.description().clearances[static_cast<std::size_t>(c)].joint;
     const MatX rows =
         stacked_rows(JointConstraint(mechanism_, of_joint, ClearanceRows::released, false), bodies) * motions;
@@ -41,7 +47,7 @@ PlayMotion<double> TiedRoom::motion_of(int clearance, const VecX& offsets) const
   const OffsetLayout::Joint& joint = layout_.joint(clearance);
   PlayOffsets own = PlayOffsets::Zero();
   own.head(joint.count()) = offsets.segment(joint.first, joint.count());
-  return at_rest_at(own);
+  return at_rest_at(own, joint_coordinates_[static_cast<std::size_t>(clearance)]);
 }
 
 double TiedRoom::depth(int clearance, const VecX& offsets) const {

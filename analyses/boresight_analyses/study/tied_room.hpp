@@ -47,6 +47,7 @@ class TiedRoom {
   const OffsetLayout& layout_;
   const std::vector<JointPlay>& plays_;
   std::vector<bool> asked_;
+  std::vector<JointCoordinates> joint_coordinates_;  // per clearance, of the pose last taken
   MatX moved_;  // offsets per motion: R N, with motions of one metre or of as much as that turns
 };
 

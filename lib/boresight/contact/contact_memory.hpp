@@ -15,7 +15,8 @@ namespace boresight {
 
 // Where in a clearance joint a contact lies. radial_minus/plus: at the sleeve's ends (free axes only). Sleeve frame: y along
 // the joint's axis; plus is the end at +y. width, height: the faces of a rectangular guide, at -x +x -z +z; of a slider that may tilt the
-// edges at its ends on them, first of the end at -y (rear), then of that at +y (front).
+// edges at its ends on them, first of the end at -y (rear), then of that at +y (front). axial_minus_left_rear and so on: the corners of a
+// rectangular pad on the faces of its slot, left and right at either end of its width, rear and front of its length.
 enum class ContactPlace : std::uint8_t {
   radial,
   radial_minus,
@@ -33,22 +34,52 @@ enum class ContactPlace : std::uint8_t {
   width_minus_front,
   width_plus_front,
   height_minus_front,
-  height_plus_front
+  height_plus_front,
+  axial_minus_left_rear,
+  axial_minus_right_rear,
+  axial_minus_left_front,
+  axial_minus_right_front,
+  axial_plus_left_rear,
+  axial_plus_right_rear,
+  axial_plus_left_front,
+  axial_plus_right_front
 };
-inline constexpr int kContactPlaces = 17;
+inline constexpr int kContactPlaces = 25;
 
 // "radial", "radial-", "radial+", "axial-", "axial+", "width-", ...
 inline const char* to_string(ContactPlace place) {
-  constexpr const char* names[kContactPlaces] = {
-      "radial",       "radial-",      "radial+",      "axial-",        "axial+",       "width-",
-      "width+",       "height-",      "height+",      "width- rear",   "width+ rear",  "height- rear",
-      "height+ rear", "width- front", "width+ front", "height- front", "height+ front"};
+  constexpr const char* names[kContactPlaces] = {"radial",
+                                                 "radial-",
+                                                 "radial+",
+                                                 "axial-",
+                                                 "axial+",
+                                                 "width-",
+                                                 "width+",
+                                                 "height-",
+                                                 "height+",
+                                                 "width- rear",
+                                                 "width+ rear",
+                                                 "height- rear",
+                                                 "height+ rear",
+                                                 "width- front",
+                                                 "width+ front",
+                                                 "height- front",
+                                                 "height+ front",
+                                                 "axial- left rear",
+                                                 "axial- right rear",
+                                                 "axial- left front",
+                                                 "axial- right front",
+                                                 "axial+ left rear",
+                                                 "axial+ right rear",
+                                                 "axial+ left front",
+                                                 "axial+ right front"};
   return names[static_cast<int>(place)];
 }
 
 // Whether a place limits the motion along the joint's axis, and not across it.
 inline bool is_axial(ContactPlace place) {
-  return place == ContactPlace::axial_minus || place == ContactPlace::axial_plus;
+  return place == ContactPlace::axial_minus || place == ContactPlace::axial_plus ||
+         (place >= ContactPlace::axial_minus_left_rear && place <= ContactPlace::axial_plus_right_front);
 }
 
 struct ContactMemory {

@@ -25,7 +25,7 @@ bool is_rectangular(const ClearanceDescription& description, JointType type) {
 }  // namespace
 
 double missed_of_turns(const ClearanceDescription& description, JointType type, const ClearanceParameters& p) {
-  if (!keeps_axis(type) || description.axes != JournalAxes::free || p.pad_radius > 0.0) return 0.0;
+  if (!keeps_axis(type) || description.axes != JournalAxes::free || type == JointType::planar) return 0.0;
   if (is_rectangular(description, type))
     return std::max({share(0.5 * p.width, p.width_gap, 0.5 * p.length),
                      share(0.5 * p.height, p.height_gap, 0.5 * p.length), missed_of_roll(p)});

@@ -26,7 +26,8 @@ void differentiate(const JointPlay& law, const PlayMotion<double>& m, const std:
            : k < 9  ? of.w[k - 6]
            : k < 11 ? of.slope[k - 9]
            : k < 13 ? of.slope_rate[k - 11]
-                    : of.roll;
+           : k < 14 ? of.roll
+                    : of.twist[k - 14];
   };
   for (int k = 0; k < kMotionNumbers; ++k) number(motion, k) = Jet(number(m, k));
   for (int i = 0; i < inputs; ++i) number(motion, column[i]).v[i] = 1.0;
@@ -64,7 +65,9 @@ void contact_jacobian(const JointPlay& law, const PlayMotion<double>& motion,
     case tilting:
       return by.operator()<tilting>(std::array<int, 13>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
     case rolling:
-      return by.operator()<rolling>(std::array<int, kMotionNumbers>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13});
+      return by.operator()<rolling>(std::array<int, 14>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13});
+    case twisting:
+      return by.operator()<twisting>(std::array<int, 15>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 15});
   }
 }
 
@@ -87,6 +90,8 @@ void offset_jacobian(const JointPlay& law, const PlayMotion<double>& at_rest,
       return by.operator()<tilting>(std::array<int, 5>{0, 1, 2, 9, 10}, std::array<int, 5>{0, 1, 2, 3, 4});
     case rolling:
       return by.operator()<rolling>(std::array<int, 6>{0, 1, 2, 9, 10, 13}, std::array<int, 6>{0, 1, 2, 3, 4, 5});
+    case twisting:
+      return by.operator()<twisting>(std::array<int, 5>{0, 1, 2, 9, 10}, std::array<int, 5>{0, 1, 2, 3, 4});
   }
 }
 

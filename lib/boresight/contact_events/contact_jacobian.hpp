@@ -21,7 +21,7 @@ void offset_jacobian(const JointPlay& law, const PlayMotion<double>& at_rest,
 
 inline Eigen::Matrix<double, kMotionNumbers, 1> numbers(const PlayMotion<double>& m) {
   Eigen::Matrix<double, kMotionNumbers, 1> all;
-  all << m.e, m.e_dot, m.w, m.slope, m.slope_rate, m.roll;
+  all << m.e, m.e_dot, m.w, m.slope, m.slope_rate, m.roll, m.twist;
   return all;
 }
 

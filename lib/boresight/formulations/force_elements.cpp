@@ -57,13 +57,16 @@ PlayMotion<double> ForceElements::play_motion(int clearance, const std::vector<B
   const Vec3 d_dot = J.v + J.w.cross(rJ) - S.v - S.w.cross(rS) - S.w.cross(d);
   PlayMotion<double> motion{R_WS.transpose() * d, R_WS.transpose() * d_dot, R_WS.transpose() * (J.w - S.w)};
   const MotionInputs inputs = joint.law.inputs();
-  if (inputs == MotionInputs::tilting || inputs == MotionInputs::rolling) {
+  const bool tilting =
+      inputs == MotionInputs::tilting || inputs == MotionInputs::rolling || inputs == MotionInputs::twisting;
+  if (tilting) {
     const Mat3 R_SJ = R_WS.transpose() * (J.R * joint.journal.R);
     const Vec3 a = R_SJ.col(1), a_dot = motion.w.cross(a);
     motion.slope << a.x() / a.y(), a.z() / a.y();
     motion.slope_rate << (a_dot.x() - motion.slope[0] * a_dot.y()) / a.y(),
         (a_dot.z() - motion.slope[1] * a_dot.y()) / a.y();
     if (inputs == MotionInputs::rolling) motion.roll = twist_about_y(R_SJ);
+    if (inputs == MotionInputs::twisting) motion.twist = direction_of_twist(R_SJ);
   }
   return motion;
 }

@@ -18,7 +18,7 @@ struct SingleRevoluteLayout {
   static constexpr int kCount = 3;
   static constexpr bool kParallel = true;
   struct Joint {
-    static constexpr bool tilts = false, rolls = false, slides = false, gains_move = false;
+    static constexpr bool tilts = false, rolls = false, twists = false, slides = false, gains_move = false;
     static constexpr int offsets = 3, spins = 1, spin = 18, spin_gain = 19, spin_drift = 22, slide = 22,
                          slide_gain = 22, slide_drift = 22, dependent = 22, shift = 22;
     static constexpr std::array<int, 3> source = {0, 1, 2};

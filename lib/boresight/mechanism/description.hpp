@@ -80,12 +80,17 @@ enum class JournalAxes { parallel, free };
 // Of a prismatic joint with play: round with a key that holds the turn about its axis, or rectangular.
 enum class GuideShape { round, rectangular };
 
+// Of a planar joint with play.
+enum class PadShape { round, rectangular };
+
 struct ClearanceDescription {
   int joint = 0;
   int journal = 0;  // the body that carries the journal (the ball, the pad); the joint's other body carries the sleeve
   JournalAxes axes = JournalAxes::parallel;
   GuideShape guide = GuideShape::round;
-  Vec3 width_direction = Vec3::UnitX();  // of a rectangular guide, at home, world axes: unit, across the joint's axis
+  PadShape pad = PadShape::round;
+  Vec3 width_direction =
+      Vec3::UnitX();  // of a rectangular guide or pad, at home, world axes: unit, across the joint's axis
   std::string contact_law = "flores";
   std::string dissipation_law;  // whose damping factor a law for cylinders takes; "": its own
   std::string friction_law = "modified-coulomb";
@@ -93,9 +98,19 @@ struct ClearanceDescription {
   Origin origin;
 };
 
+// Whether the insert has a width that lies in some direction across the joint's axis.
+inline bool has_width(const ClearanceDescription& c) {
+  return c.guide == GuideShape::rectangular || c.pad == PadShape::rectangular;
+}
+
 // Whether the insert may turn about the joint's axis within its play: a slider that tilts in a rectangular guide.
 inline bool rolls(const ClearanceDescription& c, JointType type) {
   return type == JointType::prismatic && c.guide == GuideShape::rectangular && c.axes == JournalAxes::free;
+}
+
+// Whether the contacts lie where the insert's turn about the joint's axis takes them, which the joint itself leaves free: corners of a pad.
+inline bool twists(const ClearanceDescription& c, JointType type) {
+  return type == JointType::planar && c.pad == PadShape::rectangular;
 }
 
 struct SpringDescription {

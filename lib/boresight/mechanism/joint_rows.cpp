@@ -208,6 +208,20 @@ void JointConstraint::evaluate(const std::vector<BodyMotion>& bodies, const Time
 
 double twist_about_y(const Mat3& R) { return std::atan2(R(0, 2) - R(2, 0), R(0, 0) + R(2, 2)); }
 
+Eigen::Vector2d direction_of_twist(const Mat3& R) {
+  return Eigen::Vector2d(R(0, 0) + R(2, 2), R(0, 2) - R(2, 0)).normalized();
+}
+
+Eigen::Vector2d twist_of_insert(const Mechanism& mechanism, int clearance, const std::vector<BodyMotion>& bodies) {
+  const MechanismDescription& m = mechanism.description();
+  const ClearanceDescription& d = m.clearances[static_cast<std::size_t>(clearance)];
+  const JointGeometry& g = mechanism.geometry(d.joint);
+  const bool insert_first = d.journal == m.joints[static_cast<std::size_t>(d.joint)].first;
+  const JointFrame &seat = insert_first ? g.second : g.first, &insert = insert_first ? g.first : g.second;
+  return direction_of_twist((motion_of(bodies, seat.body).R * seat.R).transpose() *
+                            (motion_of(bodies, insert.body).R * insert.R));
+}
+
 TimeValue joint_coordinate(const Mechanism& mechanism, int joint, const std::vector<BodyMotion>& bodies,
                            const std::vector<BodyAcceleration>* acceleration) {
   const JointGeometry& g = mechanism.geometry(joint);

@@ -77,6 +77,10 @@ class JointConstraint {
 
 // Turn of R about its y axis, from the rotation that takes components in B's joint frame to A's [rad].
 double twist_about_y(const Mat3& R_AB);
+// Its cosine and sine.
+Eigen::Vector2d direction_of_twist(const Mat3& R_AB);
+// The same of the insert of a joint with play, as its seat sees it.
+Eigen::Vector2d twist_of_insert(const Mechanism& mechanism, int clearance, const std::vector<BodyMotion>& bodies);
 
 // The joint's own coordinate and its derivatives, second body seen from first: the turn of a revolute about its axis
 // [rad, in (-pi, pi]], the displacement of a prismatic along it [m]. acceleration: of all bodies, or null for none.

@@ -8,11 +8,11 @@
 namespace boresight {
 namespace {
 
-// Columns x, y (the axis), z: see the header for the choice of z. A rectangular guide has its width along x.
+// Columns x, y (the axis), z: see the header for the choice of z. A rectangular guide or pad has its width along x.
 Mat3 joint_axes(const Vec3& axis, const ClearanceDescription* clearance) {
   constexpr double kCosine25Degrees = 0.9063077870366499;
   const Vec3 y = axis.normalized();
-  if (clearance != nullptr && clearance->guide == GuideShape::rectangular) {
+  if (clearance != nullptr && has_width(*clearance)) {
     const Vec3 x = (clearance->width_direction - y * y.dot(clearance->width_direction)).normalized();
     Mat3 R;
     R << x, y, x.cross(y);
@@ -85,6 +85,11 @@ void check_clearances(const MechanismDescription& m) {
       if (j.type != JointType::prismatic)
         throw InputError(c.origin, key + ".guide", std::string("\"rectangular\" on a ") + to_string(j.type) + " joint",
                          "a prismatic joint");
+    }
+    if (c.pad == PadShape::rectangular && j.type != JointType::planar)
+      throw InputError(c.origin, key + ".pad", std::string("a rectangular one on a ") + to_string(j.type) + " joint",
+                       "a planar joint");
+    if (has_width(c)) {
       if (!(std::abs(c.width_direction.dot(j.axis)) < kMostAlongAxis))
         throw InputError(c.origin, key + ".width_direction",
                          "a direction that is not perpendicular to the joint's axis", "perpendicular directions");

@@ -19,6 +19,7 @@ class OffsetLayout {
       const JointType type = m.joints[c.joint].type;
       joint.tilts = keeps_axis(type) && c.axes == JournalAxes::free;
       joint.rolls = rolls(c, type);
+      joint.twists = twists(c, type);
       joint.slides = slides_along_axis(type) ? 1 : type == JointType::planar ? 2 : 0;
       joint.spins = joint.tilts || !keeps_axis(type) ? 3 : 1;
       size_ += joint.count();
@@ -28,10 +29,11 @@ class OffsetLayout {
 
   struct Joint {
     int first = 0;
-    bool tilts = false;  // five offsets, else three
-    bool rolls = false;  // six
-    int slides = 0;      // directions in which it slides, which are no offsets: one is y, two are x and z
-    int spins = 1;       // components of the relative spin that its contacts see: y, or x y z
+    bool tilts = false;   // five offsets, else three
+    bool rolls = false;   // six
+    bool twists = false;  // its contacts turn with the insert about the joint's axis, which is no offset
+    int slides = 0;       // directions in which it slides, which are no offsets: one is y, two are x and z
+    int spins = 1;        // components of the relative spin that its contacts see: y, or x y z
     int count() const { return rolls ? 6 : tilts ? 5 : 3; }
     // Row of an offset among the released constraint rows of its joint (ClearanceRows::released); -1: not released.
     int released_row(int offset) const {

@@ -43,18 +43,22 @@ struct ClearanceParameters {
   double journal_radius = 0.0;  // R_a [m]
   double cap_radius = 0.0;      // R_s [m]
   double sleeve_length = 0.0;   // L_b [m]
-  double pad_radius = 0.0;      // of a pad in a planar joint [m]
-  double width = 0.0;           // of a slider in a rectangular guide [m]
-  double height = 0.0;          // likewise, across its width and its axis [m]
-  double length = 0.0;          // likewise, along its axis [m]
+  double pad_radius = 0.0;      // of a round pad in a planar joint [m]
+  double width = 0.0;           // of a slider in a rectangular guide, or of a rectangular pad [m]
+  double height = 0.0;          // of such a slider, across its width and its axis [m]
+  double length = 0.0;          // of such a slider along its axis, of such a pad across its width [m]
   double width_gap = 0.0;       // between slider and guide on each side, along the width [m]
   double height_gap = 0.0;      // likewise, along the height [m]
   ContactParameters contact;
   FrictionParameters friction;
 };
 
+// Whether these are a rectangular pad's.
+inline bool has_corners(const ClearanceParameters& p) { return p.length > 0.0 && !(p.height > 0.0); }
+
 // A slope of the insert's axis times this is how far its contacts move [m].
 inline double tilt_lever(const ClearanceParameters& p) {
+  if (has_corners(p)) return 0.5 * std::max(p.width, p.length);
   return p.pad_radius > 0.0 ? p.pad_radius : 0.5 * (p.length > 0.0 ? p.length : p.sleeve_length);
 }
 
@@ -64,7 +68,7 @@ inline constexpr std::array kGaps = {&ClearanceParameters::radial, &ClearancePar
 
 // The gap that carries the loads: of a journal and a ball the radial one, of a pad the axial one, of a slider the wider of its two.
 inline double ClearanceParameters::*carrying_gap(const ClearanceParameters& p) {
-  if (p.pad_radius > 0.0) return &ClearanceParameters::axial;
+  if (p.pad_radius > 0.0 || has_corners(p)) return &ClearanceParameters::axial;
   if (!(p.length > 0.0)) return &ClearanceParameters::radial;
   return p.width_gap > p.height_gap ? &ClearanceParameters::width_gap : &ClearanceParameters::height_gap;
 }

@@ -48,6 +48,11 @@ void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const d
       for (int j = 0; joint.gains_move && j < n; ++j) gain(rate, j) = scene[joint.slide_drift + slide + j];
     }
   }
+  for (int j = 0; joint.twists && j < n; ++j) {
+    const double turn = scene[joint.spin_gain + (joint.spins == 3 ? 1 : 0) * n + j];
+    gain(14, j) = -scene[joint.twist + 1] * turn;
+    gain(15, j) = scene[joint.twist] * turn;
+  }
   for (int i = 0; i < joint.spins; ++i)
     for (int j = 0; j < n; ++j) {
       const int spin = 6 + (joint.spins == 3 ? i : 1);

@@ -85,13 +85,14 @@ JointPlay JointPlay::elastic_only() const {
 ContactTangent JointPlay::tangent(const PlayMotion<double>& motion) const {
   return std::visit([&](const auto& k) { return k.tangent(motion); }, kind);
 }
-RestingPlay JointPlay::rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const {
-  RestingPlay rest = std::visit([&](const auto& k) { return k.rest_under(load, slide, before); }, kind);
+RestingPlay JointPlay::rest_under(const PlayOffsets& load, const JointCoordinates& joint,
+                                  const RestingPlay& before) const {
+  RestingPlay rest = std::visit([&](const auto& k) { return k.rest_under(load, joint, before); }, kind);
   rest.carried = load.head<3>().norm();
   return rest;
 }
-std::vector<GapPart> JointPlay::gap_parts(const RestingPlay& rest, double slide) const {
-  return std::visit([&](const auto& k) { return k.gap_parts(rest, slide); }, kind);
+std::vector<GapPart> JointPlay::gap_parts(const RestingPlay& rest, const JointCoordinates& joint) const {
+  return std::visit([&](const auto& k) { return k.gap_parts(rest, joint); }, kind);
 }
 std::vector<double> JointPlay::clearances() const {
   return std::visit([](const auto& k) { return k.clearances(); }, kind);

@@ -75,11 +75,10 @@ struct JointPlay : JointPlayT<double> {
   // The same without what dissipates and rubs.
   JointPlay elastic_only() const;
   ContactTangent tangent(const PlayMotion<double>& motion) const;
-  // load: on the offsets, zero where one is none [N, N m]. slide: displacement along the axis where the joint slides [m]. before: its
-  // rest a moment ago, for the place that friction keeps.
-  RestingPlay rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const;
+  // load: on the offsets, zero where one is none [N, N m]. before: its rest a moment ago, for the place that friction keeps.
+  RestingPlay rest_under(const PlayOffsets& load, const JointCoordinates& joint, const RestingPlay& before) const;
   // The room around it, deflection under its load included.
-  std::vector<GapPart> gap_parts(const RestingPlay& rest, double slide) const;
+  std::vector<GapPart> gap_parts(const RestingPlay& rest, const JointCoordinates& joint) const;
   // The gaps that limit it, and the widest and the narrowest of them [m].
   std::vector<double> clearances() const;
   double widest() const;

@@ -8,6 +8,7 @@
 #include "boresight/play/guide/slider_in_guide.hpp"
 #include "boresight/play/journal/journal_in_sleeve.hpp"
 #include "boresight/play/pad/pad_in_slot.hpp"
+#include "boresight/play/pad/rectangular_pad_in_slot.hpp"
 
 namespace boresight {
 
@@ -15,11 +16,12 @@ template <typename T, template <typename> typename Lanes, typename Own>
 using PlayKind = std::conditional_t<std::is_same_v<T, double>, Own, Lanes<T>>;
 
 template <typename T>
-using PlayKinds = std::variant<                      //
-    PlayKind<T, JournalInSleeveT, JournalInSleeve>,  // revolute, cylindrical, prismatic with a round guide
-    PlayKind<T, BallInSocketT, BallInSocket>,        // spherical
-    PlayKind<T, PadInSlotT, PadInSlot>,              // planar
-    PlayKind<T, SliderInGuideT, SliderInGuide>       // prismatic with a rectangular guide
+using PlayKinds = std::variant<                               //
+    PlayKind<T, JournalInSleeveT, JournalInSleeve>,           // revolute, cylindrical, prismatic with a round guide
+    PlayKind<T, BallInSocketT, BallInSocket>,                 // spherical
+    PlayKind<T, PadInSlotT, PadInSlot>,                       // planar with a round pad
+    PlayKind<T, SliderInGuideT, SliderInGuide>,               // prismatic with a rectangular guide
+    PlayKind<T, RectangularPadInSlotT, RectangularPadInSlot>  // planar with a rectangular pad
     >;
 
 }  // namespace boresight

@@ -19,8 +19,8 @@
 //   elastic_energy(motion)          of all contacts [J]
 //   elastic_only()                  the same without what dissipates and rubs
 //   tangent(motion)                 ContactTangent
-//   rest_under(load, slide, before) RestingPlay
-//   gap_parts(rest, slide)          std::vector<GapPart>
+//   rest_under(load, joint, before) RestingPlay; joint: JointCoordinates
+//   gap_parts(rest, joint)          std::vector<GapPart>
 //   clearances()                    the gaps that limit it, each way [m]
 //   widths(other)                   of each offset, the clearance that it crosses; `other` where that is zero
 //   lever()                         a slope times it is a displacement [m]
@@ -44,8 +44,9 @@ namespace boresight {
 inline constexpr int kMostContactNumbers = 26;
 
 // Which numbers of a PlayMotion a wrench hangs on: of an insert that keeps parallel (e, e_dot, its spin about the axis), of a ball
-// (e, e_dot, w), of one that tilts (all but the roll), of one that tilts and rolls (all).
-enum class MotionInputs { parallel, turning, tilting, rolling };
+// (e, e_dot, w), of one that tilts (all but roll and twist), of one that tilts and rolls (all but the twist), of one whose contacts turn with it (all
+// but the roll).
+enum class MotionInputs { parallel, turning, tilting, rolling, twisting };
 
 inline constexpr double kOutOfReach = 1e6;  // [m]
 

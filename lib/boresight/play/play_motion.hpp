@@ -18,10 +18,18 @@ struct PlayMotion {
   // Of the insert's axis a, where it may tilt: (a_x, a_z) / a_y, and its rate as seen from the seat [1/s].
   Vec2T<T> slope = Vec2T<T>::Constant(T(0.0)), slope_rate = Vec2T<T>::Constant(T(0.0));
   T roll = T(0.0);  // of the insert about its axis, where play frees it: the twist of joint_rows.hpp [rad]
+  // Cosine and sine of that twist, where the joint itself leaves it free and the contacts turn with the insert. It may be large.
+  Vec2T<T> twist = Vec2T<T>(T(1.0), T(0.0));
 };
 
-// Numbers of a PlayMotion: e, e_dot, w (3 each), then slope, slope_rate (2 each), then roll. Its rate follows from w and slope.
-inline constexpr int kMotionNumbers = 14;
+// Numbers of a PlayMotion: e, e_dot, w (3 each), then slope, slope_rate (2 each), then roll, then twist (2). Their rates follow from w and slope.
+inline constexpr int kMotionNumbers = 16;
+
+// The joint's own coordinates, free even without play, as far as contacts see them.
+struct JointCoordinates {
+  double slide = 0.0;                             // along its axis [m]
+  Vec2T<double> twist = Vec2T<double>(1.0, 0.0);  // as PlayMotion has it
+};
 
 // The offsets that play can free: x y z of the insert's centre [m], then the slopes x z of its axis [-], then its roll about it [rad]. A kind
 // that frees fewer leaves the rest zero. With forces in their place: the loads on them [N], couples on slopes and roll [N m].
@@ -37,6 +45,11 @@ inline PlayMotion<double> at_rest_at(const PlayOffsets& offsets) {
   PlayMotion<double> motion{offsets.head<3>(), Vec3::Zero(), Vec3::Zero()};
   motion.slope = offsets.segment<2>(3);
   motion.roll = offsets[5];
+  return motion;
+}
+inline PlayMotion<double> at_rest_at(const PlayOffsets& offsets, const JointCoordinates& joint) {
+  PlayMotion<double> motion = at_rest_at(offsets);
+  motion.twist = joint.twist;
   return motion;
 }
 inline PlayOffsets offsets_of(const PlayMotion<double>& motion) {

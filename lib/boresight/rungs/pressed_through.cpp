@@ -21,7 +21,7 @@ std::string millimetres(double length) {
 
 double insert_thickness(const ClearanceParameters& p) {
   // All but one of them are zero.
-  return std::max({p.journal_radius, p.pad_radius, 0.5 * std::min(p.width, p.height)});
+  return std::max({p.journal_radius, p.pad_radius, 0.5 * std::min(p.width, has_corners(p) ? p.length : p.height)});
 }
 
 std::optional<std::string> pressed_through(const Mechanism& mechanism, const Parameters& parameters,

@@ -10,7 +10,7 @@
 
 namespace boresight {
 
-// Of a journal, ball or round slider its radius, of a pad its own, of a rectangular slider half of the narrower side [m].
+// Of a journal, ball or round slider its radius, of a pad its own, of a rectangular slider or pad half of the narrower side [m].
 double insert_thickness(const ClearanceParameters& parameters);
 
 // One sentence on the first joint whose contact was pressed in that deep; nothing where all hold. parameters: of that run.

@@ -252,7 +252,7 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
   const TimeTable table(2.0 * spacing_, width, coarse);
   std::vector<int> ends = {layout_.Ar, layout_.AC, layout_.AK, layout_.joints_at};
   for (const SceneLayout::Joint& j : layout_.joints)
-    for (int end : {j.spin_gain, j.spin_drift, j.slide, j.slide_gain, j.slide_drift, j.dependent, j.shift})
+    for (int end : {j.spin_gain, j.spin_drift, j.slide, j.slide_gain, j.slide_drift, j.twist, j.dependent, j.shift})
       ends.push_back(end);
   ends.push_back(width);
   std::vector<double> miss(ends.size(), 0.0), size(ends.size(), 0.0);
@@ -279,7 +279,7 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
   size[3] = std::max(size[3], rate * rate);
   for (std::size_t c = 0; c < layout_.joints.size();
        ++c)  // a drift against its gain: what the coordinates do within the motion
-    for (const std::size_t gain : {5 + 7 * c, 8 + 7 * c})
+    for (const std::size_t gain : {5 + 8 * c, 8 + 8 * c})
       size[gain + 1] = std::max(size[gain + 1], size[gain] / mechanism_.duration());
   double worst = 0.0;
   for (std::size_t g = 0; g < ends.size(); ++g)
@@ -312,7 +312,8 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
   return knot;
 }
 
-// Relative spins and slides of the journals, ideal and per coordinate rate; where gains move, what the coordinates themselves add.
+// Relative spins and slides of the journals, ideal and per coordinate rate; where gains move, what the coordinates themselves add. What the
+// coordinates add to a twist is what their rates add to its spin.
 void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
   const MechanismDescription& m = mechanism_.description();
   const int n = layout_.n;
@@ -385,6 +386,7 @@ void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
         }
       }
     }
+    if (at.twists) append(knot.joints, twist_of_insert(mechanism_, c, knot.state.bodies));
     if (at.has_dependent) {
       append(knot.joints, knot.B.middleRows(offsets_.joint(c).first, at.offsets));
       append(knot.joints, B_rate.middleRows(offsets_.joint(c).first, at.offsets));

@@ -51,6 +51,13 @@ PlayMotion<T> play_motion(const Layout& at, const Joint& joint, const S* scene, 
       m.slope_rate[i] = offset_rate[3 + i];
     }
   if (joint.rolls) m.roll = offset[5];
+  if (joint.twists) {
+    // Of what the coordinates add, the first order: a turn about the axis as its rate is a spin about it.
+    const int about_axis = joint.spins == 3 ? 1 : 0;
+    const T by = sum_of_products(at.n, scene + joint.spin_gain + about_axis * at.n, z);
+    m.twist[0] = T(scene[joint.twist]) - T(scene[joint.twist + 1]) * by;
+    m.twist[1] = T(scene[joint.twist + 1]) + T(scene[joint.twist]) * by;
+  }
   m.w[0] = m.w[2] = T(0.0);
   for (int i = 0; i < joint.spins; ++i) {
     T spin = sum_of_products(at.n, scene + joint.spin_gain + i * at.n, rate, T(scene[joint.spin + i]));

@@ -62,7 +62,7 @@ RestingBalance::RestingBalance(const SceneLayout& layout, std::vector<JointPlay>
   offsets_of_.assign(joints_.size(), MatX::Zero(kMostOffsets, at_.n));
   works_on_.assign(joints_.size(), MatX::Zero(6, at_.n));
   over_widths_.resize(joints_.size());
-  slide_.assign(joints_.size(), 0.0);
+  coordinates_.assign(joints_.size(), {});
   shift_.assign(joints_.size(), PlayOffsets::Zero());
   with_offsets_ = MatX::Identity(at_.n, at_.n);
 }
@@ -95,7 +95,8 @@ void RestingBalance::read(const double* row) {
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     const SceneLayout::Joint& joint = at_.joints[c];
     MatX &G = offsets_of_[c], &V = works_on_[c];
-    if (joint.slides == 1) slide_[c] = row[joint.slide];
+    if (joint.slides == 1) coordinates_[c].slide = row[joint.slide];
+    if (joint.twists) coordinates_[c].twist = Vec2T<double>(row[joint.twist], row[joint.twist + 1]).normalized();
     for (int k = 0; k < joint.offsets; ++k) {
       const int source = joint.source[k];
       if (source >= 0) {
@@ -149,8 +150,8 @@ void RestingBalance::weigh() {
 }
 
 PlayMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z) const {
-  PlayMotion<double> m = at_rest_at(offsets_of_[joint] * z + shift_[joint]);
-  m.e.y() += slide_[joint];
+  PlayMotion<double> m = at_rest_at(offsets_of_[joint] * z + shift_[joint], coordinates_[joint]);
+  m.e.y() += coordinates_[joint].slide;
   return m;
 }
 
@@ -210,7 +211,7 @@ VecX RestingBalance::guess() const {
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     PlayOffsets load = over_widths_[c] * shared;
     load = (load.array().abs() > kNoLoad * load_).select(load.cwiseQuotient(widths_[c]), 0.0);
-    const PlayMotion<double> rest = joints_[c].rest_under(load, slide_[c], {}).motion;
+    const PlayMotion<double> rest = joints_[c].rest_under(load, coordinates_[c], {}).motion;
     const PlayOffsets offset = offsets_of(rest);
     for (int k = 0; k < at_.joints[c].offsets; ++k)
       if (std::isfinite(offset[k])) there += offset[k] / widths_[c][k] * over_widths_[c].row(k).transpose();

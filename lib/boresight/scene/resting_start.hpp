@@ -69,8 +69,9 @@ class RestingBalance {
   // Whether loads tip journals over from a place with this change of what is left unbalanced.
   bool falls(const MatX& by_z) const { return at_.tips && steepest_way(by_z).size() > 0; }
   bool slides_along_axis(std::size_t joint) const { return at_.joints[joint].slides == 1; }
-  double slide(std::size_t joint) const { return slide_[joint]; }  // along its axis, where it slides [m]
-  double load() const { return load_; }                            // size() of the reactions [N m]
+  // In the ideal motion: what the coordinates add to a twist moves contacts by a turn times a slope, of second order.
+  const JointCoordinates& joint_coordinates(std::size_t joint) const { return coordinates_[joint]; }
+  double load() const { return load_; }  // size() of the reactions [N m]
 
  private:
   void read(const double* row);
@@ -100,15 +101,15 @@ class RestingBalance {
   std::vector<JointPlay> joints_;
   MatX stiffness_;
   VecX reaction_;
-  MatX unit_;                        // upper triangle
-  std::vector<bool> held_;           // coordinates that the balance may move: offsets
-  MatX with_offsets_;                // n x n: z per offset, the others' columns zero
-  std::vector<PlayOffsets> widths_;  // per joint: what each offset crosses its clearance with
-  std::vector<MatX> offsets_of_;     // per joint: 5 x n, offsets per coordinate
-  std::vector<MatX> over_widths_;    // the same over the widths, of coordinates that the balance may move
-  std::vector<MatX> works_on_;       // per joint: 6 x n, the offsets that force and couples work on
-  std::vector<double> slide_;
-  std::vector<PlayOffsets> shift_;  // what standing errors leave of the offsets with all coordinates zero
+  MatX unit_;                                  // upper triangle
+  std::vector<bool> held_;                     // coordinates that the balance may move: offsets
+  MatX with_offsets_;                          // n x n: z per offset, the others' columns zero
+  std::vector<PlayOffsets> widths_;            // per joint: what each offset crosses its clearance with
+  std::vector<MatX> offsets_of_;               // per joint: 5 x n, offsets per coordinate
+  std::vector<MatX> over_widths_;              // the same over the widths, of coordinates that the balance may move
+  std::vector<MatX> works_on_;                 // per joint: 6 x n, the offsets that force and couples work on
+  std::vector<JointCoordinates> coordinates_;  // the joints' own
+  std::vector<PlayOffsets> shift_;             // what standing errors leave of the offsets with all coordinates zero
   double load_ = 0.0, widest_ = 0.0, cancelled_ = 0.0;
   MatX kept_;  // z per load, where follow() was last
 };

@@ -24,7 +24,7 @@ enum class SceneForm { accelerations, forces };
 
 struct SceneLayout {
   struct Joint {
-    bool tilts = false, rolls = false;
+    bool tilts = false, rolls = false, twists = false;
     int slides = 0;  // directions in which it slides
     // Per offset (three, five where a journal tilts, six where a slider rolls): its coordinate, or DeviationCoordinates::kSlides, kDependent.
     int offsets = 3;
@@ -36,6 +36,7 @@ struct SceneLayout {
     int slide = 0;        // ideal displacement and its rate, slide by slide
     int slide_gain = 0;   // slides x n
     int slide_drift = 0;  // slides x n, as spin_drift
+    int twist = 0;        // cosine and sine of the ideal twist (where it twists)
     int dependent = 0;    // B and then Bdot, offsets x n each (where an offset is dependent)
     int shift = 0;  // what standing errors leave of the offsets with all coordinates zero, and its rate (likewise)
     bool has_dependent = false;
@@ -57,6 +58,7 @@ struct SceneLayout {
       Joint j;
       j.tilts = offsets.joint(c).tilts;
       j.rolls = offsets.joint(c).rolls;
+      j.twists = offsets.joint(c).twists;
       j.slides = offsets.joint(c).slides;
       j.offsets = offsets.joint(c).count();
       for (int k = 0; k < j.offsets; ++k) {
@@ -76,6 +78,7 @@ struct SceneLayout {
       j.slide = take(2 * j.slides);
       j.slide_gain = take(j.slides * n);
       j.slide_drift = take(j.gains_move ? j.slides * n : 0);
+      j.twist = take(j.twists ? 2 : 0);
       j.dependent = take(j.has_dependent ? 2 * j.offsets * n : 0);
       j.shift = take(j.has_dependent ? 2 * j.offsets : 0);
       joints.push_back(j);

@@ -175,13 +175,13 @@ class Envelope final : public SceneRung {
     PoseError& bound = bounded.error;
     for (std::size_t c = 0; c < joints.size(); ++c) {
       bounded.rest.push_back(
-          joints[c].rest_under(now.load[c].force, now.load[c].slide, before ? before->rest[c] : RestingPlay{}));
+          joints[c].rest_under(now.load[c].force, now.load[c].joint, before ? before->rest[c] : RestingPlay{}));
       const RestingPlay& rest = bounded.rest.back();
       const Eigen::Matrix<double, 6, kMostOffsets> gain = reactions.joint_gain(now, static_cast<int>(c));
       PlayOffsets offset = PlayOffsets::Zero();
       const Vec3 resting = gain.topRows<3>() * offsets_of(rest.motion);
       std::vector<PlayOffsets> lines;
-      for (const GapPart& part : joints[c].gap_parts(rest, now.load[c].slide)) {
+      for (const GapPart& part : joints[c].gap_parts(rest, now.load[c].joint)) {
         if (part.shape == GapPart::Shape::cylinder && part.radial == 0.0) {
           lines.push_back(part.axial * part.offset.col(1));
           continue;
@@ -211,8 +211,8 @@ class Envelope final : public SceneRung {
         bound.boresight += worst(directions.across * turns);
         bound.line_of_sight += worst(directions.sight.leftCols<3>() * moves + directions.sight.rightCols<3>() * turns);
       }
-      if (now.load[c].slides) offset[1] = now.load[c].slide;  // where its ends are
-      bounded.worst[c].motion = at_rest_at(offset);
+      if (now.load[c].slides) offset[1] = now.load[c].joint.slide;  // where its ends are
+      bounded.worst[c].motion = at_rest_at(offset, now.load[c].joint);
       joints[c].penetrations(bounded.worst[c].motion, bounded.worst[c].contact);
     }
     bounded.worst_z = reactions.coordinates(bounded.worst);

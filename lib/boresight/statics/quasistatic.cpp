@@ -110,17 +110,19 @@ class Quasistatic final : public SceneRung {
     for (int look = 0; look < (reactions.slides() ? kLooksAtSlides : 1); ++look) {
       for (std::size_t c = 0; c < balance.rest.size(); ++c) {
         const ReactionTable::Load& load = balance.now.load[c];
-        const double slide = load.slide + load.slide_gain.dot(balance.z);
+        JointCoordinates joint = load.joint;
+        joint.slide += load.slide_gain.dot(balance.z);
         // Where next to nothing pushes it, a journal stays where it was.
         if (before && !balance.decided[c])
           balance.rest[c] = before->rest[c];
         else
           balance.rest[c] = reactions.joints()[c].rest_under(
-              load.force, slide,
+              load.force, joint,
               before  ? before->rest[c]
-              : rests ? reactions.joints()[c].elastic_only().rest_under(load.force, slide, RestingPlay{})
+              : rests ? reactions.joints()[c].elastic_only().rest_under(load.force, joint, RestingPlay{})
                       : RestingPlay{});
-        if (load.slides) balance.rest[c].motion.e.y() = slide;
+        if (load.slides) balance.rest[c].motion.e.y() = joint.slide;
+        balance.rest[c].motion.twist = joint.twist;
       }
       balance.z = reactions.coordinates(balance.rest);
     }

@@ -108,7 +108,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
   spacing_ = mechanism.duration() / (instants_ - 1);
   const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
   change_ = prepared.changed_loads(parameters, standing).table(layout_.n);
-  const int n = layout_.n, width = 7 * n + (1 + n) * mechanism.clearances();
+  const int n = layout_.n, width = 7 * n + (3 + n) * mechanism.clearances();
   joints_ = joint_plays(mechanism.description(), parameters);
   for (const JointPlay& joint : joints_) groups_.push_back(joint.pushed_together());
   // Across its axis, or in tilt, a journal that is free in one direction alone is tied in most others, and so is a ball: which of them are
@@ -142,6 +142,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
       slides_ = slides_ || j.slides == 1;
       values.push_back(j.slides == 1 ? row[j.slide] : 0.0);
       for (int i = 0; i < n; ++i) values.push_back(j.slides == 1 ? row[j.slide_gain + i] : 0.0);
+      for (int i = 0; i < 2; ++i) values.push_back(j.twists ? row[j.twist + i] : 1.0 - i);
     }
   }
   table_ = EightPointTable(scene.spacing(), width, std::move(values));
@@ -186,7 +187,7 @@ bool ReactionTable::decides(const Instant& instant, int clearance) const {
 
 ReactionTable::Instant ReactionTable::at_time(double t) const {
   const int n = layout_.n;
-  std::vector<double> row(7 * n + (1 + n) * joints_.size());
+  std::vector<double> row(7 * n + (3 + n) * joints_.size());
   Instant now;
   now.t = t;
   table_.at(now.t, row.data());
@@ -194,8 +195,12 @@ ReactionTable::Instant ReactionTable::at_time(double t) const {
   now.reaction = Eigen::Map<const VecX>(row.data(), n);
   now.pose_gain = Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>>(row.data() + n, 6, n);
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    const double* slide = row.data() + 7 * n + (1 + n) * c;
-    Load load{PlayOffsets::Zero(), layout_.joints[c].slides == 1, *slide, Eigen::Map<const VecX>(slide + 1, n)};
+    const double* slide = row.data() + 7 * n + (3 + n) * c;
+    const Vec2T<double> twist(slide[n + 1], slide[n + 2]);
+    Load load{PlayOffsets::Zero(),
+              layout_.joints[c].slides == 1,
+              {*slide, twist.normalized()},
+              Eigen::Map<const VecX>(slide + 1, n)};
     for (int k = 0; k < layout_.joints[c].offsets; ++k)
       if (const int source = layout_.joints[c].source[k]; source >= 0) load.force[k] = now.reaction[source];
     for (std::size_t g = 0; g < groups_[c].size(); ++g)

@@ -21,10 +21,10 @@ class ReactionTable {
                 const Parameters& parameters, double share = 1.0);
 
   struct Load {
-    PlayOffsets force;    // on the journal's offsets; zero where an offset is none [N, N m]
-    bool slides = false;  // along its axis:
-    double slide = 0.0;   // by so much in the ideal motion [m]
-    VecX slide_gain;      // and what coordinates add to it
+    PlayOffsets force;       // on the journal's offsets; zero where an offset is none [N, N m]
+    bool slides = false;     // along its axis:
+    JointCoordinates joint;  // by so much in the ideal motion, and twisted so
+    VecX slide_gain;         // and what coordinates add to it
   };
   struct Instant {
     double t;
@@ -64,8 +64,9 @@ class ReactionTable {
   SceneLayout layout_;
   int instants_;
   double spacing_;
-  EightPointTable table_;  // r (n), E (6 x n), and per clearance its slide and what coordinates add to it (n)
-  TimeTable change_;       // of r by standing errors (n, or no functions)
+  EightPointTable
+      table_;         // r (n), E (6 x n), per clearance its slide and what coordinates add to it (n), and its twist (2)
+  TimeTable change_;  // of r by standing errors (n, or no functions)
   std::vector<JointPlay> joints_;
   std::vector<OffsetGroups> groups_;  // of each
   std::vector<double> largest_load_;  // per clearance [N]

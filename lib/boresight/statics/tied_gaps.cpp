@@ -28,7 +28,7 @@ void TiedGaps::take(const RestingBalance& balance, const std::vector<RestingPlay
   std::vector<MatX> D;
   std::vector<VecX> d;
   for (std::size_t c = 0; c < rest.size(); ++c) {
-    const std::vector<GapPart> of_joint = balance.joints()[c].gap_parts(rest[c], balance.slide(c));
+    const std::vector<GapPart> of_joint = balance.joints()[c].gap_parts(rest[c], balance.joint_coordinates(c));
     // The parts' coordinates by the offsets.
     MatX offsets(kMostOffsets, 3 * of_joint.size());
     for (std::size_t k = 0; k < of_joint.size(); ++k) {
@@ -39,9 +39,15 @@ void TiedGaps::take(const RestingBalance& balance, const std::vector<RestingPlay
         groups_.push_back({{first, first + 1, first + 2}, part.radial});
         continue;
       }
-      // Halves of a double cone's two widths lie within it together.
-      const double of_width = part.shape == GapPart::Shape::double_cone ? 0.5 : 1.0;
-      if (part.offset.col(0).any()) groups_.push_back({{first, first + 2}, of_width * part.radial});
+      // Halves of a double cone's two widths lie within it together, and thirds of an octahedron's three.
+      const bool octahedron = part.shape == GapPart::Shape::octahedron;
+      const double of_width = octahedron ? 1.0 / 3.0 : part.shape == GapPart::Shape::double_cone ? 0.5 : 1.0;
+      if (octahedron) {
+        groups_.push_back({{first}, of_width * part.radial});
+        groups_.push_back({{first + 2}, of_width * part.radial});
+      } else if (part.offset.col(0).any()) {
+        groups_.push_back({{first, first + 2}, of_width * part.radial});
+      }
       const bool slides = balance.slides_along_axis(c) && part.offset(1, 1) != 0.0;  // nothing limits that
       if (part.offset.col(1).any() && !slides) groups_.push_back({{first + 1}, of_width * part.axial});
     }

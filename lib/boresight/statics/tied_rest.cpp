@@ -78,14 +78,16 @@ RestingPlay TiedRest::resting(std::size_t joint, const VecX& z) const {
   rest.carried = wrench.force.norm();
   const std::vector<double> gaps = law.clearances();
   rest.radial_reach.fill(gaps[0]);
-  const auto* pad = std::get_if<PadInSlot>(&law.kind);
+  // A pad has no other gap, and is pressed by its deepest point.
+  const bool pad =
+      std::holds_alternative<PadInSlot>(law.kind) || std::holds_alternative<RectangularPadInSlot>(law.kind);
   if (pad || gaps.size() > 1) rest.axial_reach = gaps.back();
   for (const ContactPlace place : law.places()) {
     const ContactState<double>& contact = rest.contact[static_cast<int>(place)];
     const double pressed = std::max(0.0, contact.penetration);
     if (is_axial(place))
       rest.axial_reach = std::max({rest.axial_reach, gaps.back() + contact.normal_force / law.axial_stiffness(),
-                                   std::abs(rest.motion.e.y()) + (pad ? pad->radius * rest.motion.slope.norm() : 0.0)});
+                                   pad ? gaps.back() + pressed : std::abs(rest.motion.e.y())});
     else if (place == ContactPlace::radial)
       rest.radial_reach.fill(gaps[0] + pressed);
     else

@@ -42,6 +42,12 @@ Vec3 worst_offset(const Gain& G, const GapPart& part) {
     const Vec3 rim = worst_offset(G, part.radial, 0.0), tip(0.0, part.axial, 0.0);
     return (G * rim).norm() > (G * tip).norm() ? rim : tip;
   }
+  if (part.shape == GapPart::Shape::octahedron) {
+    Vec3 worst(part.radial, 0.0, 0.0);
+    for (const Vec3& tip : {Vec3(0.0, part.axial, 0.0), Vec3(0.0, 0.0, part.radial)})
+      if ((G * tip).norm() > (G * worst).norm()) worst = tip;
+    return worst;
+  }
   const Eigen::SelfAdjointEigenSolver<Gain> stretch(G.transpose() * G);
   return part.radial * stretch.eigenvectors().col(2);
 }

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "boresight/ladder/ladder.hpp"
-#include "boresight/play/guide/guide_stiffness.hpp"
+#include "boresight/play/flat_face_stiffness.hpp"
 #include "scenes.hpp"
 #include "stepper.hpp"
 #include "tree_formulation_scenes.hpp"

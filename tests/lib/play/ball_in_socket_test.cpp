@@ -81,7 +81,7 @@ TEST(BallInSocket, RestsStraightAgainstItsLoad) {
   const Vec3 push(30.0, -80.0, 10.0);
   PlayOffsets load = PlayOffsets::Zero();
   load.head<3>() = push;
-  const RestingPlay rest = joint.rest_under(load, 0.0, {});
+  const RestingPlay rest = joint.rest_under(load, {}, {});
   EXPECT_LT(rest.motion.e.cross(push).norm(), 1e-15);
   PlayWrench<double> wrench;
   joint.wrench(rest.motion, speeds(1e-3), wrench);

@@ -139,7 +139,7 @@ TEST(PadInSlot, RestsWhereItsLoadIsBalanced) {
       load[1] = force;
       load.segment<2>(3) = share * std::max(10.0, std::abs(force)) * kRadius * Vec2T<double>(0.6, -0.8);
       if (load.isZero()) continue;
-      const RestingPlay rest = law.rest_under(load, 0.0, {});
+      const RestingPlay rest = law.rest_under(load, {}, {});
       PlayWrench<double> wrench;
       law.elastic_only().wrench(rest.motion, speeds(1.0), wrench);
       const double size = load.head<3>().norm() + load.segment<2>(3).norm() / kRadius;
@@ -155,7 +155,7 @@ TEST(PadInSlot, WithoutLoadStaysWhereItWas) {
   RestingPlay before;
   before.motion.e.y() = 0.4 * kGap;
   before.motion.slope = {0.2 * kGap / kRadius, 0.1 * kGap / kRadius};
-  const RestingPlay rest = law.rest_under(PlayOffsets::Zero(), 0.0, before);
+  const RestingPlay rest = law.rest_under(PlayOffsets::Zero(), {}, before);
   EXPECT_EQ(rest.motion.e, before.motion.e);
   EXPECT_EQ(rest.motion.slope, before.motion.slope);
 }
@@ -166,7 +166,7 @@ TEST(PadInSlot, TangentIsTheCurvatureOfItsEnergy) {
   for (const double share : {0.3, 0.9}) {
     PlayOffsets load = PlayOffsets::Zero();
     load << 0.0, 500.0, 0.0, 500.0 * share * kRadius, 0.0, 0.0;
-    const PlayMotion<double> m = law.rest_under(load, 0.0, {}).motion;
+    const PlayMotion<double> m = law.rest_under(load, {}, {}).motion;
     const ContactTangent tangent = law.tangent(m);
     Eigen::Matrix<double, kMostOffsets, kMostOffsets> K;
     K.setZero();

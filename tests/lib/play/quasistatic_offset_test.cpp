@@ -55,7 +55,7 @@ TEST(RestingPlay, BalancesItsLoadByTheContactLaw) {
                            load(1e-3, 1e3, 0, 0, 1e-3), load(500, -500, 500, 5, 5),  load(0, 0, 0, 2.0, 1.0)};
   RestingPlay rest;
   for (const Offsets& l : loads) {
-    rest = joint.rest_under(of_play(l), 0.0, rest);
+    rest = joint.rest_under(of_play(l), {}, rest);
     const Offsets left = l + contact_forces(joint, rest.motion);
     EXPECT_LT(left.head<3>().norm(), 1e-6 * (l.head<3>().norm() + l.tail<2>().norm() / joint.half_length))
         << l.transpose();
@@ -70,14 +70,14 @@ TEST(RestingPlay, StandsEvenlyOnItsFaceUntilTheCoupleLiftsAnEdge) {
   const JournalInSleeve joint = journal(true, 0.03);
   const double weight = 200.0, ring = joint.tilted.ring_radius, lifts = 0.5 * weight * ring;
   for (double share : {0.1, 0.5, 0.99}) {
-    const RestingPlay rest = joint.rest_under(of_play(load(0.0, -weight, 0.0, share * lifts, 0.0)), 0.0, {});
+    const RestingPlay rest = joint.rest_under(of_play(load(0.0, -weight, 0.0, share * lifts, 0.0)), {}, {});
     EXPECT_NEAR(rest.motion.slope[0], 2.0 * share * lifts / (joint.face_stiffness * ring * ring),
                 1e-6 * rest.motion.slope[0]);
     EXPECT_NEAR(rest.motion.e.y(), -(joint.axial_clearance + weight / joint.face_stiffness), 1e-12);
     EXPECT_EQ(rest.contact[static_cast<int>(ContactPlace::radial_minus)].normal_force, 0.0);
   }
   // Beyond what the ring's edge carries it falls against the ends of the bore.
-  const RestingPlay fallen = joint.rest_under(of_play(load(0.0, -weight, 0.0, 2.5 * lifts, 0.0)), 0.0, {});
+  const RestingPlay fallen = joint.rest_under(of_play(load(0.0, -weight, 0.0, 2.5 * lifts, 0.0)), {}, {});
   EXPECT_GT(fallen.motion.slope.norm(), 0.99 * joint.radial_clearance / joint.half_length);
 }
 
@@ -85,7 +85,7 @@ TEST(RestingPlay, StaysWhereItWasWhereNoForceMovesIt) {
   const JournalInSleeve joint = journal(true, 0.03);
   RestingPlay before;
   before.motion.e << 3e-5, 0.0, -2e-5;
-  const RestingPlay rest = joint.rest_under(of_play(load(0.0, -200.0, 0.0, 0.0, 0.0)), 0.0, before);
+  const RestingPlay rest = joint.rest_under(of_play(load(0.0, -200.0, 0.0, 0.0, 0.0)), {}, before);
   EXPECT_NEAR(rest.motion.e.x(), 3e-5, 1e-9);
   EXPECT_NEAR(rest.motion.e.z(), -2e-5, 1e-9);
   EXPECT_LT(rest.motion.e.y(), -joint.axial_clearance);
@@ -103,7 +103,7 @@ TEST(RestingPlay, ArrivesWhereItsLoadPointsFromWhereverItWas) {
         RestingPlay before;
         const double angle = 0.1 + turn * std::numbers::pi / 6.0;
         before.motion.e << joint.radial_clearance * std::cos(angle), 0.0, joint.radial_clearance * std::sin(angle);
-        const RestingPlay rest = joint.rest_under(pushes, 0.0, before);
+        const RestingPlay rest = joint.rest_under(pushes, {}, before);
         for (const int side : {-1, 1}) {
           const Vec2T<double> force = 0.5 * (Vec2T<double>(pushes[0], pushes[2]) +
                                              side / joint.half_length * Vec2T<double>(pushes[3], pushes[4]));

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "boresight/contact/hertz.hpp"
-#include "boresight/play/guide/guide_stiffness.hpp"
+#include "boresight/play/flat_face_stiffness.hpp"
 #include "boresight/play/joint_play.hpp"
 
 namespace boresight {
@@ -196,7 +196,7 @@ TEST(SliderInGuide, RestsInBalance) {
         8.0 * uniform(generator), 4.0 * uniform(generator);
     if (k % 3 == 0) load[5] = 0.0;
     if (k % 4 == 0) load[3] = 0.0;
-    const RestingPlay rest = law.rest_under(load, 0.1, {});
+    const RestingPlay rest = law.rest_under(load, {.slide = 0.1}, {});
     PlayOffsets left = load + law.elastic_force(rest.motion);
     left.tail<3>() /= 0.5 * kLength;
     EXPECT_LT(left.norm(), 1e-6 * load.norm()) << k;
@@ -211,7 +211,7 @@ TEST(SliderInGuide, RollsAsFarAsItsGapsLeaveIt) {
   const SliderInGuide law(d, JointType::prismatic, d.parameters);
   PlayOffsets load = PlayOffsets::Zero();
   load[5] = 1.0;
-  const RestingPlay rest = law.rest_under(load, 0.0, {});
+  const RestingPlay rest = law.rest_under(load, {}, {});
   EXPECT_NEAR(rest.motion.roll / std::min(kWidthGap / (0.5 * kHeight), kHeightGap / (0.5 * kWidth)), 1.0, 1e-3);
   EXPECT_GT(rest.contact[static_cast<int>(ContactPlace::height_plus_front)].normal_force, 0.0);
   EXPECT_GT(rest.contact[static_cast<int>(ContactPlace::height_minus_rear)].normal_force, 0.0);

@@ -36,7 +36,7 @@ ContactTangent BallInSocket::tangent(const PlayMotion<double>& motion) const {
 }
 
 // e = (c + (F / K)^(2/3)) F / |F|: the load presses it straight against the socket.
-RestingPlay BallInSocket::rest_under(const PlayOffsets& load, double, const RestingPlay&) const {
+RestingPlay BallInSocket::rest_under(const PlayOffsets& load, const JointCoordinates&, const RestingPlay&) const {
   RestingPlay rest;
   const Vec3 push = load.head<3>();
   const double force = push.norm(), reach = clearance + law.depth_under(force);
@@ -47,7 +47,7 @@ RestingPlay BallInSocket::rest_under(const PlayOffsets& load, double, const Rest
   return rest;
 }
 
-std::vector<GapPart> BallInSocket::gap_parts(const RestingPlay& rest, double) const {
+std::vector<GapPart> BallInSocket::gap_parts(const RestingPlay& rest, const JointCoordinates&) const {
   GapPart part{Eigen::Matrix<double, kMostOffsets, 3>::Zero(), rest.radial_reach[0], 0.0, GapPart::Shape::ball};
   part.offset.topRows<3>().setIdentity();
   return {part};

@@ -119,8 +119,8 @@ struct BallInSocket : BallInSocketT<double> {
   double elastic_energy(const PlayMotion<double>& motion) const;
   BallInSocket elastic_only() const;
   ContactTangent tangent(const PlayMotion<double>& motion) const;
-  RestingPlay rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const;
-  std::vector<GapPart> gap_parts(const RestingPlay& rest, double slide) const;
+  RestingPlay rest_under(const PlayOffsets& load, const JointCoordinates& joint, const RestingPlay& before) const;
+  std::vector<GapPart> gap_parts(const RestingPlay& rest, const JointCoordinates& joint) const;
   std::vector<double> clearances() const { return {clearance}; }
   PlayOffsets widths(double other) const;
   OffsetGroups pushed_together() const { return {{0, 1, 2}}; }

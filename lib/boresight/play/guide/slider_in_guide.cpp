@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "boresight/play/elastic_part.hpp"
-#include "boresight/play/guide/guide_stiffness.hpp"
+#include "boresight/play/flat_face_stiffness.hpp"
 
 namespace boresight {
 
@@ -91,7 +91,7 @@ ContactTangent SliderInGuide::tangent(const PlayMotion<double>& motion) const {
 
 // Lines for each end in each direction, with how deep it is pressed there, and one for the roll as far as both gaps leave it: together no less
 // than the room there is, in which a slider that rolls has less of the rest.
-std::vector<GapPart> SliderInGuide::gap_parts(const RestingPlay& rest, double) const {
+std::vector<GapPart> SliderInGuide::gap_parts(const RestingPlay& rest, const JointCoordinates&) const {
   std::vector<GapPart> parts;
   const auto pressed = [&](int across, int end) {
     double deepest = 0.0;

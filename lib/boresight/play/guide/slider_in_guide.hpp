@@ -10,7 +10,7 @@
 // A slider that keeps parallel (axes = "parallel") touches with whole faces: d = s e_x - c_x, d = s e_z - c_z, at their middle.
 // The faces of the guide are as long as the slider goes. Each force acts along the gradient of its penetration on e, sigma and phi, so that
 // elastic contact keeps energy exactly. Penetrations are of first order in offsets, slopes and roll.
-// Stiffness: a face that lies flat is a rigid rectangular punch on a half-space (guide_stiffness.hpp), and its two end edges have half of it each;
+// Stiffness: a face that lies flat is a rigid rectangular punch on a half-space (flat_face_stiffness.hpp), and its two end edges have half of it each;
 // or that of the law "kelvin-voigt" and its D. The law that the file names lends its h_d: the restitution that it gives is the same for any
 // elastic force (exact_restitution.hpp).
 // The contact modes are those of Flores, Ambrosio, Claro and Lankarani (2008), J. Comput. Nonlinear Dyn. 3, 011007: none, one corner, two
@@ -198,8 +198,8 @@ struct SliderInGuide : SliderInGuideT<double> {
   PlayOffsets elastic_force(const PlayMotion<double>& motion) const;
   SliderInGuide elastic_only() const;
   ContactTangent tangent(const PlayMotion<double>& motion) const;
-  RestingPlay rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const;
-  std::vector<GapPart> gap_parts(const RestingPlay& rest, double slide) const;
+  RestingPlay rest_under(const PlayOffsets& load, const JointCoordinates& joint, const RestingPlay& before) const;
+  std::vector<GapPart> gap_parts(const RestingPlay& rest, const JointCoordinates& joint) const;
   std::vector<double> clearances() const { return {gap[0], gap[1]}; }
   PlayOffsets widths(double other) const;
   OffsetGroups pushed_together() const { return {{}, {0}, {2}, {3}, {4}, {5}}; }  // either pair of faces may be idle

@@ -90,7 +90,7 @@ PlayOffsets JournalInSleeve::root_stiffness(double load) const {
 
 // A journal's gap: a cylinder of centre offsets where axes are parallel; where it tilts, a disc at each end of the sleeve and the
 // axial play.
-std::vector<GapPart> JournalInSleeve::gap_parts(const RestingPlay& rest, double slide) const {
+std::vector<GapPart> JournalInSleeve::gap_parts(const RestingPlay& rest, const JointCoordinates& joint) const {
   std::vector<GapPart> parts;
   Eigen::Matrix<double, kMostOffsets, 3> offset = Eigen::Matrix<double, kMostOffsets, 3>::Zero();
   if (!tilts) {
@@ -101,7 +101,7 @@ std::vector<GapPart> JournalInSleeve::gap_parts(const RestingPlay& rest, double 
   const double length = 2.0 * half_length;
   for (int side : {-1, 1}) {
     offset.setZero();
-    offset(0, 0) = offset(2, 2) = 0.5 + side * slide / length;
+    offset(0, 0) = offset(2, 2) = 0.5 + side * joint.slide / length;
     offset(3, 0) = offset(4, 2) = side / length;
     parts.push_back({offset, rest.radial_reach[side < 0 ? 0 : 1], 0.0});
   }

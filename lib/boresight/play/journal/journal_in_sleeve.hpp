@@ -106,8 +106,8 @@ struct JournalInSleeve : JournalInSleeveT<double> {
   double elastic_energy(const PlayMotion<double>& motion) const;
   JournalInSleeve elastic_only() const;
   ContactTangent tangent(const PlayMotion<double>& motion) const;
-  RestingPlay rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const;
-  std::vector<GapPart> gap_parts(const RestingPlay& rest, double slide) const;
+  RestingPlay rest_under(const PlayOffsets& load, const JointCoordinates& joint, const RestingPlay& before) const;
+  std::vector<GapPart> gap_parts(const RestingPlay& rest, const JointCoordinates& joint) const;
   std::vector<double> clearances() const;
   PlayOffsets widths(double other) const;
   OffsetGroups pushed_together() const { return {{0, 2}, {1}, {3, 4}}; }  // across its axis, along it, in tilt

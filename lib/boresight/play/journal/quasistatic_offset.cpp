@@ -256,10 +256,11 @@ void rest_tilted(const JournalInSleeve& joint, const Offsets& load, double slide
 
 }  // namespace
 
-RestingPlay JournalInSleeve::rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const {
+RestingPlay JournalInSleeve::rest_under(const PlayOffsets& load, const JointCoordinates& joint,
+                                        const RestingPlay& before) const {
   RestingPlay rest;
   if (tilts)
-    rest_tilted(*this, load.head<5>(), slide, before, rest);
+    rest_tilted(*this, load.head<5>(), joint.slide, before, rest);
   else
     rest_parallel(*this, load.head<3>(), before, rest);
   return rest;

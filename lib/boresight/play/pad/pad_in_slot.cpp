@@ -64,7 +64,7 @@ ContactTangent PadInSlot::tangent(const PlayMotion<double>& motion) const {
 }
 
 // A line along the normal; where the pad tilts, |e_y| + R |sigma| <= c.
-std::vector<GapPart> PadInSlot::gap_parts(const RestingPlay& rest, double) const {
+std::vector<GapPart> PadInSlot::gap_parts(const RestingPlay& rest, const JointCoordinates&) const {
   GapPart part{.offset = Eigen::Matrix<double, kMostOffsets, 3>::Zero(), .radial = 0.0, .axial = rest.axial_reach};
   part.offset(1, 1) = 1.0;
   if (tilts) {

@@ -30,7 +30,9 @@ struct PadInSlotT {
   FrictionLawT<T> friction;
   bool tilts = false;  // axes = "free"
 
-  static bool serves(const ClearanceDescription&, JointType type) { return type == JointType::planar; }
+  static bool serves(const ClearanceDescription& description, JointType type) {
+    return type == JointType::planar && description.pad == PadShape::round;
+  }
   static PlayWords words() { return {"pad", "slot"}; }
 
   template <typename M>
@@ -137,8 +139,8 @@ struct PadInSlot : PadInSlotT<double> {
   double elastic_energy(const PlayMotion<double>& motion) const;
   PadInSlot elastic_only() const;
   ContactTangent tangent(const PlayMotion<double>& motion) const;
-  RestingPlay rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const;
-  std::vector<GapPart> gap_parts(const RestingPlay& rest, double slide) const;
+  RestingPlay rest_under(const PlayOffsets& load, const JointCoordinates& joint, const RestingPlay& before) const;
+  std::vector<GapPart> gap_parts(const RestingPlay& rest, const JointCoordinates& joint) const;
   std::vector<double> clearances() const { return {clearance}; }
   PlayOffsets widths(double other) const;
   OffsetGroups pushed_together() const { return {{1}, {3, 4}}; }

@@ -66,7 +66,7 @@ Pressed between_faces(double stiffness, double room, double force, double couple
 
 }  // namespace
 
-RestingPlay PadInSlot::rest_under(const PlayOffsets& load, double, const RestingPlay& before) const {
+RestingPlay PadInSlot::rest_under(const PlayOffsets& load, const JointCoordinates&, const RestingPlay& before) const {
   RestingPlay rest;
   const double force = std::abs(load[1]);
   const Vec2T<double> g = tilts ? Vec2T<double>(load.segment<2>(3)) : Vec2T<double>(Vec2T<double>::Zero());

@@ -1,4 +1,4 @@
-// A slider's flat face pressed onto its guide: a rigid rectangle of length a and width b <= a on a half-space,
+// A flat face pressed onto another: a rigid rectangle of length a and width b <= a on a half-space,
 //
 //   K = E_s a / 2 (0.73 + 1.54 (b / a)^0.75)          Gazetas (1991), J. Geotech. Eng. 117, 1363-1381, table 1 (vertical, surface), with
 //                                                     E_s = 2 G / (1 - nu), chi = b / a
