@@ -29,7 +29,7 @@ export function frameOf(item, width, height) {
 // How far its play lets a centre go.
 const reach = ({ radial, axial, width = 0, height = 0 }) => Math.max(radial, width, height, radial + width > 0 ? 0 : axial);
 // What the legend calls the room of a joint's play (room(), below).
-export const roomOf = ({ tip, side, clearance }) => (tip === undefined ? "balls" : side !== undefined ? "guides" : clearance.pad ? "pads" : "journals");
+export const roomOf = ({ tip, side, clearance }) => (tip === undefined ? "balls" : clearance.pad || clearance.pad_width ? "pads" : side !== undefined ? "guides" : "journals");
 
 const f = (value) => value.toFixed(1);
 const line = (...points) => points.map((p, i) => `${i ? "L" : "M"}${f(p.x)} ${f(p.y)}`).join("");
@@ -131,8 +131,8 @@ export function scene(item) {
     tips.forEach(([x, y], k) => set(triadNames[k], { x: f(corner.x + 31 * x), y: f(corner.y + 31 * y + 4), fill: colors.soft }));
 
     // What the centre can move in: of a journal a cylinder, a ring at each end; of a ball a sphere, a ring about every axis; of a slider a
-    // rectangle across its guide; of a pad the space between its faces, a ring of the pad's own size at each.
-    function room({ first, tip, side, room: middle, clearance }) {
+    // rectangle across its guide; of a pad the space between its faces, a ring or rectangle of the pad's own size at each.
+    function room({ first, second, tip, side, room: middle, clearance }) {
       const foot = world[first], center = world[middle ?? first];
       const ring = (axis, along, r = exaggeration * clearance.radial) => {
         const a = unit(cross(axis, Math.abs(axis[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0])), b = cross(axis, a);
@@ -143,6 +143,11 @@ export function scene(item) {
       };
       if (tip === undefined) return [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => ring(axis, 0)).join("");
       const axis = unit(minus(world[tip], foot));
+      if (clearance.pad_width) {
+        const a = unit(minus(world[side], world[second])), b = cross(a, axis);
+        const sides = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
+        return [-1, 1].map((face) => `${line(...sides.map(([w, l]) => view.project(plus(plus(plus(center, axis, face * exaggeration * clearance.axial), a, w * clearance.pad_width), b, l * clearance.pad_length))))}z`).join("");
+      }
       if (side !== undefined) {
         const a = unit(minus(world[side], foot)), b = cross(a, axis);
         return `${line(...[[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([w, h]) => view.project(plus(plus(center, a, w * exaggeration * clearance.width), b, h * exaggeration * clearance.height))))}z`;

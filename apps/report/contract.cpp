@@ -242,8 +242,8 @@ void view_joint(const Place& place, std::size_t points) {
     if (place.has(key)) point_index(place.at(key), points);
   if (!place.has("clearance")) return;
   const Place play = place.at("clearance");
-  object(play, {"radial", "axial"}, {"width", "height", "pad"});
-  for (const char* key : {"radial", "axial", "width", "height", "pad"})
+  object(play, {"radial", "axial"}, {"width", "height", "pad", "pad_width", "pad_length"});
+  for (const char* key : {"radial", "axial", "width", "height", "pad", "pad_width", "pad_length"})
     if (play.has(key)) finite(play.at(key), 0);
   const auto needs = [&](const char* key, std::initializer_list<const char*> others) {
     if (play.has(key))
@@ -253,7 +253,9 @@ void view_joint(const Place& place, std::size_t points) {
   };
   needs("width", {"tip", "side"});
   needs("pad", {"tip"});
+  needs("pad_width", {"tip", "side"});
   if (play.has("width") != play.has("height")) play.fail("one of width and height", "both");
+  if (play.has("pad_width") != play.has("pad_length")) play.fail("one of pad_width and pad_length", "both");
 }
 
 void view(const Place& place) {

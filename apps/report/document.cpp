@@ -202,7 +202,10 @@ void to_json(json& json, const ViewJoint& joint) {
   if (!joint.clearance) return;
   const ViewClearance& play = *joint.clearance;
   json["clearance"] = {{"radial", play.radial}, {"axial", play.axial}};
-  if (joint.side >= 0) json["clearance"].update({{"width", play.width}, {"height", play.height}});
+  if (play.pad_width > 0.0)
+    json["clearance"].update({{"pad_width", play.pad_width}, {"pad_length", play.pad_length}});
+  else if (joint.side >= 0)
+    json["clearance"].update({{"width", play.width}, {"height", play.height}});
   if (play.pad > 0.0) json["clearance"]["pad"] = play.pad;
 }
 

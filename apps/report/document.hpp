@@ -168,13 +168,15 @@ struct ViewBody {
 };
 
 // The room that the moving part's centre has, each way: a journal's in its sleeve (radial, axial), a ball's in its socket (radial; the joint
-// has no tip), a slider's in a rectangular guide (width along the joint's side, height), a pad's in its slot (axial; pad is its radius).
+// has no tip), a slider's in a rectangular guide (width along the joint's side, height), a pad's in its slot (axial; pad is the radius of a round one,
+// pad_width and pad_length the sides of a rectangular one).
 struct ViewClearance {
   double radial = 0.0, axial = 0.0;
-  double width = 0.0, height = 0.0, pad = 0.0;
+  double width = 0.0, height = 0.0, pad = 0.0, pad_width = 0.0, pad_length = 0.0;
 };
 
-// tip, side: points along the axis and along a guide's width, moving with the first body (-1: none). Where there is clearance the first
+// tip, side: points along the axis and along a guide's width, moving with the first body (-1: none); a rectangular pad's width, along which side
+// lies then, moves with the second. Where there is clearance the first
 // body carries the sleeve, and second_tip moves with the journal; room: where the first body has the middle of the play, where that is not
 // its own point all the time (-1: it is).
 struct ViewJoint {

@@ -32,7 +32,7 @@ std::vector<JournalSize> journal_sizes(const MechanismDescription& mechanism, co
       if (meant != "*" && meant != joint) continue;
       const double inner = gap[0] == 'r' ? 2.0 * p.journal_radius : gap[0] == 'w' ? p.width : p.height;
       const double room = gap[0] == 'r' ? p.radial : gap[0] == 'w' ? p.width_gap : p.height_gap;
-      if (inner > 0.0)  // a pad has none
+      if (inner > 0.0 && !has_corners(p))  // a pad has none
         sizes.push_back({joint, inner, inner + 2.0 * room, gap,
                          JointPlay::words(c, mechanism.joints[static_cast<std::size_t>(c.joint)].type).insert});
     }

@@ -68,19 +68,25 @@ class ViewBuilder {
 
   // How the room of each kind of play that there is is drawn.
   std::string rooms() const {
-    bool journals = false, balls = false, pads = false, sliders = false;
+    bool journals = false, balls = false, pads = false, corners = false, sliders = false;
     for (int c = 0; c < mechanism_.clearances(); ++c)
-      (is_ball(mechanism_, c)     ? balls
-       : is_pad(mechanism_, c)    ? pads
-       : is_slider(mechanism_, c) ? sliders
-                                  : journals) = true;
+      (is_ball(mechanism_, c)                                ? balls
+       : is_pad(mechanism_, c) && has_corners(parameters(c)) ? corners
+       : is_pad(mechanism_, c)                               ? pads
+       : is_slider(mechanism_, c)                            ? sliders
+                                                             : journals) = true;
     std::string text;
     for (const auto& [there, says] : {std::pair{journals, "a journal's in its sleeve as a ring"},
                                       std::pair{balls, "a ball's in its socket as three rings"},
                                       std::pair{pads, "a pad's between its faces as two rings of the pad's size"},
+                                      std::pair{corners, "a rectangular pad's as two rectangles of its size"},
                                       std::pair{sliders, "a slider's in its guide as a rectangle"}})
       if (there) text += (text.empty() ? "" : ", ") + std::string(says);
     return text;
+  }
+
+  const ClearanceParameters& parameters(int c) const {
+    return mechanism_.parameters().clearance[static_cast<std::size_t>(c)];
   }
 
   int add(const BodyPoint& point) {
@@ -144,14 +150,18 @@ class ViewBuilder {
     report::ViewJoint drawn{.name = joint.name, .first = add_end(*first), .second = add_end(*second)};
     if (joint.type != JointType::spherical && joint.type != JointType::fixed) drawn.tip = add_tip(*first);
     if (c >= 0) {
-      const ClearanceParameters& p = mechanism_.parameters().clearance[c];
+      const ClearanceParameters& p = parameters(c);
+      const bool corners = is_pad(mechanism_, c) && has_corners(p);
       drawn.clearance = report::ViewClearance{.radial = kMmPerM * p.radial,
                                               .axial = kMmPerM * p.axial,
                                               .width = kMmPerM * p.width_gap,
                                               .height = kMmPerM * p.height_gap,
-                                              .pad = kMmPerM * p.pad_radius};
+                                              .pad = kMmPerM * p.pad_radius,
+                                              .pad_width = corners ? kMmPerM * p.width : 0.0,
+                                              .pad_length = corners ? kMmPerM * p.length : 0.0};
       if (drawn.tip >= 0) drawn.second_tip = add_tip(*second);
       if (is_slider(mechanism_, c)) drawn.side = add_tip(*first, 0);
+      if (corners) drawn.side = add_tip(*second, 0);  // it turns in its slot
       if (slides_along_axis(joint.type) || joint.type == JointType::planar) drawn.room = add_room(*first, *second);
     }
     view_.joints.push_back(std::move(drawn));

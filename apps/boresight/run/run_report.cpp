@@ -66,16 +66,19 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
   const std::string joint = joint_of_clearance(mechanism, static_cast<int>(c));
   const ClearanceParameters& p = mechanism.parameters().clearance[c];
   const bool ball = is_ball(mechanism, static_cast<int>(c)), pad = is_pad(mechanism, static_cast<int>(c)),
-             slider = is_slider(mechanism, static_cast<int>(c)), tilts = may_tilt(mechanism, static_cast<int>(c));
+             slider = is_slider(mechanism, static_cast<int>(c)), tilts = may_tilt(mechanism, static_cast<int>(c)),
+             corners = pad && has_corners(p);
   const MechanismDescription& m = mechanism.description();
   // Along its axis it goes where the mechanism has it, past no end faces.
   const bool slides = slides_along_axis(m.joints[static_cast<std::size_t>(m.clearances[c].joint)].type);
   report::Section section{
       .id = fmt::format("joint-{}", c + 1),
       .title = "Joint " + joint,
-      .intro = ball     ? fmt::format("A ball in its socket: play {}.", readable(p.radial, "m"))
-               : pad    ? fmt::format("A pad in its slot: gap {} on each side, radius {}.", readable(p.axial, "m"),
-                                      readable(p.pad_radius, "m"))
+      .intro = ball  ? fmt::format("A ball in its socket: play {}.", readable(p.radial, "m"))
+               : pad ? fmt::format(
+                           "A pad in its slot: gap {} on each side, {}.", readable(p.axial, "m"),
+                           corners ? fmt::format("{} wide and {} long", readable(p.width, "m"), readable(p.length, "m"))
+                                   : "radius " + readable(p.pad_radius, "m"))
                : slider ? fmt::format("A slider in its guide: gap {} on each side along its width of {}, {} "
                                       "along its height of {}; {} long.",
                                       readable(p.width_gap, "m"), readable(p.width, "m"), readable(p.height_gap, "m"),
@@ -105,9 +108,10 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
                                              : axial.y.unit == "pm" ? 1e12
                                                                     : 1.0};
   if (tilts && !ball && !slides)
-    axial.caption = pad ? "A tilted pad touches a face with its rim while its centre is still within the lines."
-                        : "A tilted journal touches an end face with its edge while its centre is still within the "
-                          "lines.";
+    axial.caption = corners ? "A tilted pad touches a face with a corner while its centre is still within the lines."
+                    : pad   ? "A tilted pad touches a face with its rim while its centre is still within the lines."
+                            : "A tilted journal touches an end face with its edge while its centre is still within the "
+                              "lines.";
   if (!ball && !slides)
     axial.lines = {{'y', p.axial * axial_unit.per_si, pad ? "face" : "end face"},
                    {'y', -p.axial * axial_unit.per_si, pad ? "face" : "end face"}};

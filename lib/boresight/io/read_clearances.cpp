@@ -130,6 +130,17 @@ FrictionParameters read_friction(Cursor& cursor, std::string& law, std::vector<A
   return p;
 }
 
+// Where the width of a slider or a pad lies.
+void read_width_direction(Cursor& cursor, const JointDescription& joint, ClearanceDescription& clearance) {
+  const Vec3 width = cursor.direction("width_direction");
+  const double skew = width.dot(joint.axis);
+  if (std::abs(skew) > 1e-3)
+    cursor.fail_found("width_direction",
+                      "a direction that is not perpendicular to the axis of " + in_quotes(joint.name),
+                      "perpendicular directions");
+  clearance.width_direction = (width - skew * joint.axis).normalized();
+}
+
 // A slider in a rectangular guide: its size and gaps, and where its width lies.
 void read_slider(Cursor& cursor, const JointDescription& joint, ClearanceDescription& clearance) {
   ClearanceParameters& p = clearance.parameters;
@@ -141,13 +152,26 @@ void read_slider(Cursor& cursor, const JointDescription& joint, ClearanceDescrip
   p.height_gap = cursor.quantity("height_gap");
   require(cursor, kGapWithinWidth, p);
   require(cursor, kGapWithinHeight, p);
-  const Vec3 width = cursor.direction("width_direction");
-  const double skew = width.dot(joint.axis);
-  if (std::abs(skew) > 1e-3)
-    cursor.fail_found("width_direction",
-                      "a direction that is not perpendicular to the axis of " + in_quotes(joint.name),
-                      "perpendicular directions");
-  clearance.width_direction = (width - skew * joint.axis).normalized();
+  read_width_direction(cursor, joint, clearance);
+}
+
+// A pad between two faces: a round one, or one whose corners turn with it.
+void read_pad(Cursor& cursor, const JointDescription& joint, ClearanceDescription& clearance) {
+  ClearanceParameters& p = clearance.parameters;
+  p.axial = cursor.quantity("axial");
+  const bool corners =
+      cursor.has_by_name("width") || cursor.has_by_name("length") || cursor.has_by_name("width_direction");
+  if (!corners) {
+    p.pad_radius = cursor.quantity("pad_radius");
+    return;
+  }
+  if (cursor.has_by_name("pad_radius"))
+    cursor.fail_found("pad_radius", "it on " + in_quotes(joint.name) + ", whose pad is rectangular",
+                      "either pad_radius, of a round pad, or width, length and width_direction");
+  clearance.pad = PadShape::rectangular;
+  p.width = cursor.quantity("width");
+  p.length = cursor.quantity("length");
+  read_width_direction(cursor, joint, clearance);
 }
 
 }  // namespace
@@ -181,14 +205,20 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
     if (slider && cursor.has_by_name(key))
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", whose guide is rectangular",
                         "width, height, length, width_gap and height_gap: the slider's size and its gaps");
-  for (const char* key : {"width", "height", "length", "width_gap", "height_gap", "width_direction"})
+  const std::string of_guide = "it only on a prismatic joint with guide = \"rectangular\"";
+  for (const char* key : {"height", "width_gap", "height_gap"})
     if (!slider && cursor.has_by_name(key))
+      cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", which has no rectangular guide", of_guide);
+  for (const char* key : {"width", "length", "width_direction"})
+    if (!slider && !pad && cursor.has_by_name(key))
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", which has no rectangular guide",
-                        "it only on a prismatic joint with guide = \"rectangular\"");
+                        of_guide + ", or on a planar one with a rectangular pad");
   for (const char* key : {"radial", "journal_radius", "cap_radius", "sleeve_length"})
     if (pad && cursor.has_by_name(key))
-      cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", a planar joint",
-                        "axial and pad_radius alone: the gap on each side of a pad and the pad's radius");
+      cursor.fail_found(
+          key, "it on " + in_quotes(joint.name) + ", a planar joint",
+          "axial with pad_radius, or with width, length and width_direction: the gap on each side of a pad, "
+          "and the pad's size");
   if (!pad && cursor.has_by_name("pad_radius"))
     cursor.fail_found("pad_radius", "it on " + in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint",
                       "it only on a planar joint, which has a pad");
@@ -208,13 +238,13 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
   if (slider) {
     read_slider(cursor, joint, clearance);
   } else if (pad) {
-    p.pad_radius = cursor.quantity("pad_radius");
+    read_pad(cursor, joint, clearance);
   } else {
     p.radial = cursor.quantity("radial");
     p.journal_radius = cursor.quantity("journal_radius");
     require(cursor, kPlayWithinJournal, p);
   }
-  if (caps || pad) p.axial = cursor.quantity("axial");
+  if (caps) p.axial = cursor.quantity("axial");
   const bool sleeve = !ball && !pad && !slider;
   if (caps || (sleeve && cursor.has("cap_radius"))) {
     p.cap_radius = cursor.quantity("cap_radius");

@@ -27,6 +27,7 @@ std::vector<KeyChoice> cited_dissipations() {
 const KeyTable& clearance_keys() {
   using namespace keys;
   static const char* kOfGuide = "needed of a rectangular guide, and of no other";
+  static const char* kOfRectangle = "needed of a rectangular guide and of a rectangular pad, and of no other";
   static const KeyTable table_of_keys{
       .name = "clearance",
       .says =
@@ -70,8 +71,9 @@ const KeyTable& clearance_keys() {
                .says("Length of the sleeve; its end faces lie at half of it on both sides of the joint's point."),
            quantity("pad_radius", kSizeRange)
                .above(0.0, "a length above zero")
-               .sometimes("needed of a planar joint, and of no other")
-               .says("Radius of the round pad between the faces. A pad that tilts bears on its rim, and turns about it "
+               .sometimes("needed of a planar joint whose pad is not rectangular, and of no other")
+               .says("Radius of the round pad between the faces. Such a pad that tilts bears on its rim, and turns "
+                     "about it "
                      "where it lifts off."),
            quantity("width_gap", kSizeRange)
                .at_least(0.0, "a length of zero or more")
@@ -83,20 +85,23 @@ const KeyTable& clearance_keys() {
                .says("Gap between slider and guide on each side, along the height."),
            quantity("width", kSizeRange)
                .above(0.0, "a length above zero")
-               .sometimes(kOfGuide)
-               .says("The slider's size along width_direction."),
+               .sometimes(kOfRectangle)
+               .says(
+                   "The slider's size along width_direction, or that of a rectangular pad, which bears on its corners "
+                   "and turns with its joint."),
            quantity("height", kSizeRange)
                .above(0.0, "a length above zero")
                .sometimes(kOfGuide)
                .says("The slider's size across its width and the joint's axis."),
            quantity("length", kSizeRange)
                .above(0.0, "a length above zero")
-               .sometimes(kOfGuide)
-               .says("The slider's size along the joint's axis; the joint's point is in its middle, and the guide is "
+               .sometimes(kOfRectangle)
+               .says("Of a rectangular pad, its size across width_direction. The slider's size along the joint's axis; "
+                     "the joint's point is in its middle, and the guide is "
                      "as long "
                      "as it goes. A slider that tilts touches with the edges at its ends."),
            direction("width_direction")
-               .sometimes(kOfGuide)
+               .sometimes(kOfRectangle)
                .says("Direction of the width at home, in world axes, across the joint's axis."),
            choice("axes", std::vector<KeyChoice>{{"parallel", "the journal stays parallel to the sleeve"},
                                                  {"free", "the journal may tilt in the sleeve"}})

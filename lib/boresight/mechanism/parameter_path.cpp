@@ -56,9 +56,11 @@ bool belongs(const std::string& number, const ClearanceDescription& clearance, J
   const auto one_of = [&](std::initializer_list<const char*> names) {
     return std::find(names.begin(), names.end(), number) != names.end();
   };
-  const bool pad = joint == JointType::planar, slider = clearance.guide == GuideShape::rectangular;
-  if (one_of({"width", "height", "length", "width_gap", "height_gap"})) return slider;
-  if (number == "pad_radius") return pad;
+  const bool pad = joint == JointType::planar, slider = clearance.guide == GuideShape::rectangular,
+             corners = pad && clearance.pad == PadShape::rectangular;
+  if (one_of({"width", "length"})) return slider || corners;
+  if (one_of({"height", "width_gap", "height_gap"})) return slider;
+  if (number == "pad_radius") return pad && !corners;
   if (number == "axial") return !slider;
   if (one_of({"radial", "journal_radius", "cap_radius", "sleeve_length"})) return !pad && !slider;
   return true;
