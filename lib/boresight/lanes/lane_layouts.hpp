@@ -20,7 +20,7 @@ struct SingleRevoluteLayout {
   struct Joint {
     static constexpr bool tilts = false, rolls = false, twists = false, slides = false, gains_move = false;
     static constexpr int offsets = 3, spins = 1, spin = 18, spin_gain = 19, spin_drift = 22, slide = 22,
-                         slide_gain = 22, slide_drift = 22, dependent = 22, shift = 22;
+                         slide_gain = 22, slide_drift = 22, twist = 22, dependent = 22, shift = 22;
     static constexpr std::array<int, 3> source = {0, 1, 2};
   };
   static constexpr int n = 3;
@@ -34,7 +34,7 @@ struct SingleRevoluteLayout {
   static bool describes(const SceneLayout& at) {
     if (at.n != n || at.joints.size() != 1) return false;
     const SceneLayout::Joint& j = at.joints.front();
-    return !at.stiff && !j.tilts && !j.slides && !j.has_dependent && !j.gains_move && j.source[0] == 0 &&
+    return !at.stiff && !j.tilts && !j.twists && !j.slides && !j.has_dependent && !j.gains_move && j.source[0] == 0 &&
            j.source[1] == 1 && j.source[2] == 2 && at.A == A && at.Ar == Ar && at.AC == AC && j.spin == Joint::spin &&
            j.spin_gain == Joint::spin_gain && at.width == width;
   }
