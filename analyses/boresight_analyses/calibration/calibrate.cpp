@@ -132,23 +132,20 @@ void Calibrator::fit_poses() {
   warn_of_play();
   constexpr int kMostRounds = 60;
   constexpr double kSettled = 0.01;
-  // Standard deviations from which on noises are unlike. At three, one of a hundred sets of six alike channels was taken apart.
-  constexpr double kApart = 4.0;
   const VecX first = noise_from_sizes(problem_);
   set_noise(first);
   note(fit(problem_, problem_.start(), {}, fit_options("errors", 40, options_.jobs)));
-  // First each channel's own: with equal weights a noisy channel drowns a quiet one, and they look alike.
-  double apart_by = 0.0;
+  std::vector<bool> told;
+  for (std::size_t c = 0; c < problem_.channels.size(); ++c) told.push_back(noise_is_told(static_cast<int>(c)));
   for (int round = 0; round < kMostRounds; ++round) {
     const VecX before = problem_.sigma;
+    ChannelNoises noises = noises_from_residuals(problem_, result_.fit, told, problem_.noise_of);
     // Data without any noise would weigh without bound.
-    set_noise(
-        pooled_where_alike(problem_, noise_from_residuals(problem_, result_.fit), apart_by).cwiseMax(1e-6 * first));
+    set_noise(noises.sigma.cwiseMax(1e-6 * first));
+    problem_.noise_of = std::move(noises.shared);
     refit("noise estimated from the residuals");
     const bool settled = (problem_.sigma.cwiseQuotient(before).array() - 1.0).abs().maxCoeff() < kSettled;
-    if (settled && apart_by > 0.0 && result_.fit.converged) return;
-    // Channels with few readings may take turns in being the quiet one.
-    if (settled || round >= kMostRounds / 3) apart_by = kApart;
+    if (settled && result_.fit.converged) return;
   }
 }
 
@@ -168,7 +165,7 @@ void Calibrator::judge_fit() {
   int channel = 0;
   for (Eigen::Index c = 0; c < rough.size(); ++c)
     // Whoever says what the noise is is not told otherwise by readings that are too coarse to show it.
-    if (!(options_.noise.size() > 0 && std::isfinite(options_.noise[problem_.channels[static_cast<std::size_t>(c)]])) &&
+    if (!noise_is_told(static_cast<int>(c)) &&
         problem_.sigma[c] * std::sqrt(result_.inference.variance_factor) / rough[c] > worst) {
       worst = problem_.sigma[c] * std::sqrt(result_.inference.variance_factor) / rough[c];
       channel = problem_.channels[static_cast<std::size_t>(c)];
@@ -209,13 +206,18 @@ void Calibrator::judge_poses() {
   result_.verdict.insert(result_.verdict.begin(), text);
 }
 
+bool Calibrator::noise_is_told(int channel) const {
+  return options_.noise.size() > 0 &&
+         std::isfinite(options_.noise[problem_.channels[static_cast<std::size_t>(channel)]]);
+}
+
 void Calibrator::set_noise(const VecX& sigma) {
   problem_.noise_told =
       options_.noise.size() > 0 && std::all_of(problem_.channels.begin(), problem_.channels.end(),
                                                [&](int c) { return std::isfinite(options_.noise[c]); });
   problem_.sigma = problem_.follows_play() ? VecX(sigma.cwiseMax(noise_of_steps(problem_))) : sigma;
   for (std::size_t c = 0; c < problem_.channels.size(); ++c)
-    if (options_.noise.size() > 0 && std::isfinite(options_.noise[problem_.channels[c]]))
+    if (noise_is_told(static_cast<int>(c)))
       problem_.sigma[static_cast<Eigen::Index>(c)] = options_.noise[problem_.channels[c]];
 }
 

@@ -126,6 +126,9 @@ class CalibrationProblem {
   bool noise_told = false;                   // that of all channels
   std::vector<int> channels;                 // among channel_names(), of all runs together
   VecX sigma;                                // noise per channel [SI]
+  // Of each channel: which estimate by residuals its sigma is, numbered from 0; channels that share one have its number. -1: it was told.
+  // Empty: intervals are those of one variance factor for all.
+  std::vector<int> noise_of;
   bool fit_time_offset = false, fit_lag = false, fit_bias = false, fit_drift = false;
   bool offsets_per_run = false;  // whether each run has biases and drifts of its own
   // Of each bias, and of each drift, in the order of their columns: whose it is. By prepare().

@@ -38,6 +38,7 @@ class Calibrator {
   // A fit that has lost its way leaves more than the noise that neighbouring samples show.
   void judge_fit();
 
+  bool noise_is_told(int channel) const;  // channel: among the problem's
   void set_noise(const VecX& sigma);
 
   // How far the fit has come, of 1, by what its stages take as a rule: a horizon that grows takes as long as what it has reached. Nothing is

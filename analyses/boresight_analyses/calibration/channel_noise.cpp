@@ -138,92 +138,161 @@ static std::vector<int> instruments(const CalibrationProblem& problem) {
 
 namespace {
 
-struct AlikeChannels {
+// In one round a noise falls to no less than this share: a channel that is fitted too well is not a quiet one.
+constexpr double kLeastLeft = 0.5;
+
+// Readings beyond those that the unknowns may follow, from which a channel has a noise of its own: with four degrees of freedom and less, the
+// ratio by which Kenward and Roger (1997) match errors has no variance.
+constexpr double kLeastLeftOver = 5.0;
+
+// Of an information: how many unknowns a part of it pays for.
+class Unknowns {
+ public:
+  explicit Unknowns(MatX all) {
+    constexpr double kOfRounding = 1e-12;  // what nothing determines costs nothing
+    // Unknowns are of different units.
+    unit_ = all.diagonal().unaryExpr([](double h) { return h > 0.0 ? 1.0 / std::sqrt(h) : 1.0; });
+    all = unit_.asDiagonal() * all * unit_.asDiagonal();
+    all.diagonal().array() += kOfRounding;
+    solver_.compute(all);
+  }
+  double in(const MatX& part) const { return solver_.solve(unit_.asDiagonal() * part * unit_.asDiagonal()).trace(); }
+
+ private:
+  VecX unit_;
+  Eigen::LDLT<MatX> solver_;
+};
+
+}  // namespace
+
+namespace {
+
+// What a fit leaves of channels that share a noise.
+struct Left {
   std::vector<int> channels;
-  double square = 0.0, readings = 0.0;  // square: mean over the readings
-  void add(const AlikeChannels& other) {
-    square = (square * readings + other.square * other.readings) / (readings + other.readings);
-    readings += other.readings;
+  MatX information;  // at the problem's own sigma
+  double values = 0.0, square = 0.0,
+         redundancy = 0.0;  // square: of all readings [SI^2]; redundancy: readings less what they pay of the unknowns
+
+  double variance() const { return square / std::max(1.0, redundancy); }
+  void add(const Left& other) {
     channels.insert(channels.end(), other.channels.begin(), other.channels.end());
+    information += other.information;
+    values += other.values;
+    square += other.square;
+    redundancy += other.redundancy;
   }
 };
 
-// Puts neighbours by size together as long as `alike` says so of the quieter and the noisier one.
-template <typename Alike>
-void put_together(std::vector<AlikeChannels>& groups, const Alike& alike) {
-  std::sort(groups.begin(), groups.end(),
-            [](const AlikeChannels& l, const AlikeChannels& r) { return l.square < r.square; });
-  for (std::size_t k = 0; k + 1 < groups.size();) {
-    if (alike(groups[k], groups[k + 1])) {
-      groups[k].add(groups[k + 1]);
-      groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(k) + 1);
-      k = k > 0 ? k - 1 : 0;
-    } else {
-      ++k;
+// Sum of the squares of residuals of unit noise, of which outliers count as no more than so many deviations of them; infinite: all in full. The
+// size of the residuals is known by their median, and the clipped squares made up for as a normal distribution asks (Huber 1981, section 5.2,
+// one step).
+double square_of(std::vector<double> sizes, double deviations) {
+  double sum = 0.0;
+  if (std::isinf(deviations)) {
+    for (const double r : sizes) sum += r * r;
+    return sum;
+  }
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double most = deviations * std::max(kLeastLeft, 1.4826 * *middle);
+  for (const double r : sizes) sum += std::min(r * r, most * most);
+  const double beyond = std::erfc(deviations / std::sqrt(2.0)),
+               density = std::exp(-0.5 * deviations * deviations) / std::sqrt(2.0 * M_PI);
+  return sum / (1.0 - beyond - 2.0 * deviations * density + deviations * deviations * beyond);
+}
+
+// Of each channel that has readings; it stands under its number.
+std::vector<Left> left_by_channel(const CalibrationProblem& problem, const FitResult& fit) {
+  const int G = problem.global_count();
+  std::vector<Left> left(problem.channels.size());
+  std::vector<std::vector<double>> sizes(left.size());
+  for (std::size_t c = 0; c < left.size(); ++c) left[c] = {{static_cast<int>(c)}, MatX::Zero(G, G)};
+  for (std::size_t k = 0; k < fit.windows.size(); ++k) {
+    WindowResiduals at;
+    problem.evaluate(problem.windows[fit.windows[k]], fit.globals, fit.states[k], true, at);
+    for (Eigen::Index i = 0; i < at.r.size(); ++i) {
+      const auto c = static_cast<std::size_t>(at.channel[static_cast<std::size_t>(i)]);
+      sizes[c].push_back(std::abs(at.r[i]));
+      left[c].information.noalias() +=
+          problem.loss.weight(at.r[i]) * at.by_global.row(i).transpose() * at.by_global.row(i);
     }
   }
+  MatX all = problem.prior_information().asDiagonal();
+  for (const Left& one : left) all += one.information;
+  const Unknowns unknowns(all);
+  const double clipped = problem.loss.kind == Loss::none    ? std::numeric_limits<double>::infinity()
+                         : problem.loss.kind == Loss::huber ? problem.loss.scale
+                                                            : ResidualLoss{}.scale;
+  for (std::size_t c = 0; c < left.size(); ++c) {
+    if (sizes[c].empty()) continue;
+    left[c].values = static_cast<double>(sizes[c].size());
+    // Each pays for the trace of its share of the information; these add up to the unknowns that the data determine (Foerstner 1979, variance
+    // components). A quiet channel among noisy ones pays for nearly all of them.
+    left[c].redundancy = left[c].values - unknowns.in(left[c].information);
+    left[c].square = std::pow(problem.sigma[static_cast<Eigen::Index>(c)], 2) * square_of(std::move(sizes[c]), clipped);
+  }
+  return left;
+}
+
+// How many readings are left over where nothing but these tell the unknowns.
+double left_over_alone(const CalibrationProblem& problem, const Left& left) {
+  return left.values - Unknowns(left.information + MatX(problem.prior_information().asDiagonal())).in(left.information);
+}
+
+// To whom those go that have too few readings to tell a noise of their own: to the next noisier channels of their unit, first of their instrument.
+// -1: there are none.
+int next_noisier(const CalibrationProblem& problem, const std::vector<Left>& left, std::size_t of) {
+  const std::vector<int> instrument = instruments(problem);
+  const auto read_by = [&](const Left& one) { return instrument[static_cast<std::size_t>(one.channels.front())]; };
+  int found = -1;
+  const auto better = [&](std::size_t k) {
+    if (found < 0) return true;
+    const Left& other = left[static_cast<std::size_t>(found)];
+    const bool ours = read_by(left[k]) == read_by(left[of]), its = read_by(other) == read_by(left[of]);
+    return ours != its ? ours : left[k].variance() < other.variance();
+  };
+  for (std::size_t k = 0; k < left.size(); ++k)
+    if (k != of && left[k].variance() >= left[of].variance() &&
+        is_angle(problem, left[k].channels.front()) == is_angle(problem, left[of].channels.front()) && better(k))
+      found = static_cast<int>(k);
+  return found;
 }
 
 }  // namespace
 
-VecX pooled_where_alike(const CalibrationProblem& problem, const VecX& sigma, double apart_by) {
-  // Of the logarithm of a noise that is estimated by the median size of n residuals: 1 / (2 n 0.368), Huber (1981), section 5.1.
-  constexpr double kVariance = 1.36;
-  constexpr double kReadingsOfUnknown = 3.0;  // below, a fit follows the noise itself, and takes it for less and less
-  const std::vector<int> instrument = instruments(problem);
-  const auto too_few = [&](const AlikeChannels& quieter, const AlikeChannels&) {
-    return quieter.readings < kReadingsOfUnknown * problem.global_count();
-  };
-  const auto alike = [&](const AlikeChannels& quieter, const AlikeChannels& noisier) {
-    const double apart = 0.5 * std::log(noisier.square / quieter.square),
-                 allowed = apart_by * std::sqrt(kVariance / quieter.readings + kVariance / noisier.readings);
-    return apart <= allowed || too_few(quieter, noisier);
-  };
-  VecX pooled = sigma;
-  for (const bool angle : {false, true}) {
-    std::vector<AlikeChannels> of_all;
-    for (int i = 0; i < sigma.size(); ++i) {
-      std::vector<AlikeChannels> of_one;
-      for (int c = i; c < sigma.size(); ++c) {
-        if (instrument[static_cast<std::size_t>(c)] != i || is_angle(problem, c) != angle) continue;
-        AlikeChannels group{{c}, sigma[c] * sigma[c], 0.0};
-        for (std::size_t r = 0; r < problem.runs.size(); ++r)
-          if (const int column = problem.column(static_cast<int>(r), c); column >= 0)
-            for (const double v : problem.runs[r].data.value.col(column))
-              group.readings += std::isfinite(v) ? 1.0 : 0.0;
-        if (group.readings > 0.0) of_one.push_back(group);
-      }
-      put_together(of_one, alike);
-      of_all.insert(of_all.end(), of_one.begin(), of_one.end());
+ChannelNoises noises_from_residuals(const CalibrationProblem& problem, const FitResult& fit,
+                                    const std::vector<bool>& told, const std::vector<int>& shared) {
+  ChannelNoises out{problem.sigma, std::vector<int>(problem.channels.size(), -1)};
+  std::vector<Left> of_channel = left_by_channel(problem, fit), left;
+  std::vector<int> place(of_channel.size(), -1);  // in `left`, by the number that they shared
+  for (std::size_t c = 0; c < of_channel.size(); ++c) {
+    if (told[c] || of_channel[c].values == 0.0) continue;
+    int& at = place[shared.empty() ? c : static_cast<std::size_t>(shared[c])];
+    if (at >= 0) {
+      left[static_cast<std::size_t>(at)].add(of_channel[c]);
+    } else {
+      at = static_cast<int>(left.size());
+      left.push_back(std::move(of_channel[c]));
     }
-    put_together(of_all, too_few);
-    for (const AlikeChannels& group : of_all)
-      for (const int c : group.channels) pooled[c] = std::sqrt(group.square);
   }
-  return pooled;
-}
-
-// How many unknowns each channel pays for: the trace of its share of the information, which add up to the unknowns that the data determine
-// (Foerstner 1979, variance components). A quiet channel among noisy ones pays for nearly all of them. Of poses, which have no start states.
-static VecX unknowns_of_channels(const CalibrationProblem& problem, const FitResult& fit) {
-  const auto channels = problem.channels.size();
-  const int G = problem.global_count();
-  std::vector<MatX> share(channels, MatX::Zero(G, G));
-  for (std::size_t k = 0; k < fit.windows.size(); ++k) {
-    WindowResiduals at;
-    problem.evaluate(problem.windows[fit.windows[k]], fit.globals, fit.states[k], true, at);
-    for (Eigen::Index i = 0; i < at.r.size(); ++i)
-      share[static_cast<std::size_t>(at.channel[i])].noalias() +=
-          problem.loss.weight(at.r[i]) * at.by_global.row(i).transpose() * at.by_global.row(i);
+  for (std::size_t k = 0; k < left.size();) {
+    const int other = left_over_alone(problem, left[k]) < kLeastLeftOver ? next_noisier(problem, left, k) : -1;
+    if (other < 0) {
+      ++k;
+      continue;
+    }
+    left[k].add(left[static_cast<std::size_t>(other)]);
+    left.erase(left.begin() + other);
+    k = 0;
   }
-  MatX all = problem.prior_information().asDiagonal();
-  for (const MatX& one : share) all += one;
-  constexpr double kOfRounding = 1e-12;  // what nothing determines costs nothing
-  all.diagonal().array() += kOfRounding * all.diagonal().maxCoeff();
-  const Eigen::LDLT<MatX> solver(all);
-  VecX unknowns(static_cast<Eigen::Index>(channels));
-  for (std::size_t c = 0; c < channels; ++c) unknowns[static_cast<Eigen::Index>(c)] = solver.solve(share[c]).trace();
-  return unknowns;
+  for (std::size_t k = 0; k < left.size(); ++k)
+    for (const int c : left[k].channels) {
+      out.shared[static_cast<std::size_t>(c)] = static_cast<int>(k);
+      // Slowly: what a first fit with other weights leaves of a quiet channel is not its own.
+      out.sigma[c] = std::max(kLeastLeft * problem.sigma[c], std::sqrt(left[k].variance()));
+    }
+  return out;
 }
 
 VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fit) {
@@ -239,17 +308,14 @@ VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fi
   std::size_t all = 0;
   for (const auto& s : sizes) all += s.size();
   VecX sigma = problem.sigma;
-  const VecX own = problem.follows_play() ? VecX() : unknowns_of_channels(problem, fit);
+  const double freedom = static_cast<double>(all) / std::max(1.0, static_cast<double>(all) - unknowns);
   for (std::size_t c = 0; c < sizes.size(); ++c) {
     if (sizes[c].empty()) continue;
-    const auto n = static_cast<double>(sizes[c].size());
     std::nth_element(sizes[c].begin(), sizes[c].begin() + static_cast<std::ptrdiff_t>(sizes[c].size() / 2),
                      sizes[c].end());
-    const double freedom = own.size() > 0
-                               ? n / std::max(1.0, n - own[static_cast<Eigen::Index>(c)])
-                               : static_cast<double>(all) / std::max(1.0, static_cast<double>(all) - unknowns);
     // Never far below what differences say: a channel fitted too well is not a quiet one.
-    sigma[static_cast<Eigen::Index>(c)] *= std::max(0.5, 1.4826 * sizes[c][sizes[c].size() / 2] * std::sqrt(freedom));
+    sigma[static_cast<Eigen::Index>(c)] *=
+        std::max(kLeastLeft, 1.4826 * sizes[c][sizes[c].size() / 2] * std::sqrt(freedom));
   }
   return sigma;
 }

@@ -17,16 +17,22 @@ VecX noise_of_steps(const CalibrationProblem& problem);
 // A first guess for poses that have no neighbours: the median size of the readings of all channels of the same unit.
 VecX noise_from_sizes(const CalibrationProblem& problem);
 
-// The same of all channels of an instrument and a unit whose noises their numbers of readings cannot tell apart, root mean square over the readings:
-// weights of each channel's own would follow the noise itself, and intervals be too narrow. What is a hundred times as quiet keeps its own.
-// Channels that stand in one file of a run are of one instrument. Of others nothing says that they are alike: taken for that, two that differ by
-// a factor of two make intervals of 95 % that hold 86 %. Only what has too few readings to have a noise of its own takes that of another.
-// apart_by: standard deviations of their estimates from which on they count as unlike; 0: all of them that have readings enough to tell.
-VecX pooled_where_alike(const CalibrationProblem& problem, const VecX& sigma, double apart_by);
-
 // From what a fit leaves, by the median, which outliers do not reach: a channel's sigma times 1.4826 median
 // |r|, and the unknowns made up for; at least half of the problem's own sigma.
 VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fit);
+
+struct ChannelNoises {
+  VecX sigma;
+  std::vector<int> shared;  // as CalibrationProblem::noise_of
+};
+
+// Of poses, by the squares that a fit leaves of each channel over the readings that are left over: restricted maximum likelihood where it has
+// settled. However alike they look, channels keep their own: what weights add that follow the noise is known (channel_variances.hpp), and
+// taken for one, two that differ by a factor of two make intervals of 95 % that hold 88 %, until hundreds of readings tell them apart.
+// Those that have hardly more readings than unknowns that they tell could be followed exactly, and would weigh without bound: they share the noise
+// of others, and so do those that shared before (`shared`; empty: none). told: of each channel; these keep the problem's sigma.
+ChannelNoises noises_from_residuals(const CalibrationProblem& problem, const FitResult& fit,
+                                    const std::vector<bool>& told, const std::vector<int>& shared);
 
 // A reading that no noise explains.
 struct OutlyingReading {

@@ -7,6 +7,7 @@
 
 #include "boresight/math/dense_solves.hpp"
 #include "boresight/math/eigenvalues.hpp"
+#include "boresight_analyses/calibration/channel_variances.hpp"
 
 namespace boresight {
 namespace {
@@ -122,17 +123,29 @@ std::vector<ConfusedErrors> confused_errors(const CalibrationProblem& problem, c
   // Those whose own error is small enough are known, whatever little the directions have of them.
   std::vector<bool> unknown(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) unknown[static_cast<std::size_t>(i)] = !(deviation(i) < kUnknown);
+  // How all unknowns go with a combination, what the data hardly see left out.
+  const auto along = [&](const VecX& c) {
+    VecX seen_y = VecX::Zero(count);
+    for (int k = 0; k < count; ++k)
+      if (all.values[k] > kHardlySeen * all.values[count - 1])
+        seen_y += c.dot(all.vectors.col(k)) / all.values[k] * all.vectors.col(k);
+    VecX z = VecX::Zero(problem.global_count());
+    z(errors) = seen_y;
+    if (!others.empty()) z(others) = -led * seen_y;
+    return z;
+  };
   const auto variance = [&](const VecX& c) {
     VecX y = VecX::Zero(count);  // M^-1 c
     for (int k = 0; k < count; ++k)
       y += c.dot(all.vectors.col(k)) / std::max(all.values[k], kLeastInformation) * all.vectors.col(k);
-    const VecX y_others = led * y;
+    const VecX y_others = led * y, z = along(c);
     const double of_the_told =
         told(errors).dot(y.cwiseAbs2()) + (others.empty() ? 0.0 : told(others).dot(y_others.cwiseAbs2()));
     double growth = 1.0;
     for (int i = 0; i < count; ++i)
       if (c[i] != 0.0) growth = std::max(growth, known.growth[errors[static_cast<std::size_t>(i)]]);
-    return growth * (s2 * c.dot(y) - (s2 - 1.0) * of_the_told);  // as in inference.hpp
+    // As in inference.hpp.
+    return growth * (s2 * c.dot(y) - (s2 - 1.0) * of_the_told + z.dot(known.departure * z));
   };
   std::vector<int> parent(static_cast<std::size_t>(count));
   std::iota(parent.begin(), parent.end(), 0);
@@ -175,8 +188,9 @@ std::vector<ConfusedErrors> confused_errors(const CalibrationProblem& problem, c
       for (const auto& [g, coefficient] : combination.terms)
         combination.value += coefficient * problem.parameters[static_cast<std::size_t>(g)].value(globals.u[g]);
       combination.standard_error = size * std::sqrt(found.variance);
-      combination.low = combination.value - known.quantile * combination.standard_error;
-      combination.high = combination.value + known.quantile * combination.standard_error;
+      const double half = known.quantile(along(found.c)) * combination.standard_error;
+      combination.low = combination.value - half;
+      combination.high = combination.value + half;
       // One that is not known either is no news.
       if (combination.standard_error < kUnknown * size) group.known.push_back(std::move(combination));
     }

@@ -15,6 +15,7 @@
 // Meggiolaro and Dubowsky 2000, An analytical method to eliminate the redundant parameters in robot calibration, ICRA).
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,9 +47,10 @@ struct KnownOfErrors {
   MatX data_information;         // without priors
   MatX information;              // with them
   double variance_factor = 1.0;  // s^2
+  MatX departure;                // ChannelVariances
   MatX covariance;
-  VecX growth;             // of variances, since residuals follow one another
-  double quantile = 1.96;  // of the intervals
+  VecX growth;                                  // of variances, since residuals follow one another
+  std::function<double(const VecX&)> quantile;  // of the interval of a combination, by how all unknowns go with it
 };
 
 std::vector<ConfusedErrors> confused_errors(const CalibrationProblem& problem, const Globals& globals,

@@ -10,6 +10,7 @@
 #include "boresight/math/eigenvalues.hpp"
 #include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/calibration/channel_noise.hpp"
+#include "boresight_analyses/calibration/channel_variances.hpp"
 #include "boresight_analyses/statistics/effective_samples.hpp"
 
 namespace boresight {
@@ -28,22 +29,20 @@ std::vector<double> autocorrelations_of(const std::vector<ResidualSeries>& serie
   return sum;
 }
 
-// Eliminates what was held.
-MatX inverse_of(const MatX& H, const std::vector<int>& free) {
+// Eliminates what was held. of_unseen: what a direction has whose information is less than `least`.
+MatX inverse_of(const MatX& H, const std::vector<int>& free, double least, double of_unseen) {
   MatX out = MatX::Constant(H.rows(), H.cols(), std::numeric_limits<double>::quiet_NaN());
   if (free.empty()) return out;
   MatX part(free.size(), free.size());
   for (std::size_t a = 0; a < free.size(); ++a)
     for (std::size_t b = 0; b < free.size(); ++b) part(a, b) = H(free[a], free[b]);
-  // Parameters and biases are of different units, and so are their informations: 1 beside 1e18. Scaled, each loses its own digits alone. A
-  // direction that nothing sees gets a large variance in place of an infinite one.
-  constexpr double kUnseen = 1e-13;
+  // Parameters and biases are of different units, and so are their informations: 1 beside 1e18. Scaled, each loses its own digits alone.
   VecX unit = VecX::Ones(part.rows());
   for (Eigen::Index a = 0; a < unit.size(); ++a)
     if (part(a, a) > 1e-8) unit[a] = 1.0 / std::sqrt(part(a, a));
   Eigen::SelfAdjointEigenSolver<MatX> eigen(MatX(unit.asDiagonal() * part * unit.asDiagonal()));
   VecX values = eigen.eigenvalues();
-  for (double& v : values) v = 1.0 / std::max(v, kUnseen);
+  for (double& v : values) v = v > least ? 1.0 / v : of_unseen;
   const MatX inverse = unit.asDiagonal() * eigen.eigenvectors() * values.asDiagonal() *
                        eigen.eigenvectors().transpose() * unit.asDiagonal();
   for (std::size_t a = 0; a < free.size(); ++a)
@@ -141,6 +140,31 @@ MatX products_of_followers(const MatX& rows, const std::vector<int>& channel, do
   return sum;
 }
 
+// What of the data is of each noise: those that are estimated, then the one of all that are told. None: they have one variance factor.
+std::vector<SharedNoise> noises_of(const CalibrationProblem& problem) {
+  int estimated = 0;
+  for (const int noise : problem.noise_of) estimated = std::max(estimated, noise + 1);
+  if (estimated == 0) return {};
+  const int G = problem.global_count();
+  const bool any_told = std::any_of(problem.noise_of.begin(), problem.noise_of.end(), [](int n) { return n < 0; });
+  std::vector<SharedNoise> noises(static_cast<std::size_t>(estimated + any_told));
+  for (SharedNoise& one : noises) one.information = MatX::Zero(G, G);
+  if (any_told) noises.back().estimated = false;
+  return noises;
+}
+
+// The i-th value of a window.
+void add_value(std::vector<SharedNoise>& noises, const CalibrationProblem& problem, const WindowResiduals& at,
+               const WindowInformation& part, Eigen::Index i) {
+  const int noise = problem.noise_of[static_cast<std::size_t>(at.channel[static_cast<std::size_t>(i)])];
+  SharedNoise& its = noise < 0 ? noises.back() : noises[static_cast<std::size_t>(noise)];
+  const double psi = problem.loss.score(at.r[i]), slope = problem.loss.weight(at.r[i]);
+  its.values += 1.0;
+  its.psi_square += psi * psi;
+  its.psi_slope += slope;
+  its.information.noalias() += slope * part.rows.row(i).transpose() * at.by_global.row(i);
+}
+
 }  // namespace
 
 Inference infer(const CalibrationProblem& problem, const FitResult& fit, double confidence,
@@ -158,6 +182,7 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   MatX white = out.information;
   out.impacts.assign(problem.runs.front().mechanism->clearances(), 0);
   double psi_square = 0.0, psi_slope = 0.0;
+  std::vector<SharedNoise> noises = noises_of(problem);
   for (int k = 0; k < count; ++k) {
     const Window& w = problem.windows[fit.windows[k]];
     out.information += parts[k].information;
@@ -170,6 +195,7 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
       const double r = residuals[k].r[i];
       psi_square += problem.loss.score(r) * problem.loss.score(r);
       psi_slope += problem.loss.weight(r);
+      if (!noises.empty()) add_value(noises, problem, residuals[k], parts[k], i);
       if (out.residuals.empty() || out.residuals.back().run != w.run ||
           out.residuals.back().channel != residuals[k].channel[i] || i == 0) {
         // A window's residuals come channel by channel.
@@ -211,13 +237,26 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
       lost_in_time ? out.autocorrelations : autocorrelations_of(out.residuals, std::max(1, longest / 2));
   out.per_independent_one =
       values_per_independent_one(until_lost, noise, static_cast<double>(out.values), out.unknowns);
-  const MatX inverse = inverse_of(out.information, free);
+  // A direction that nothing sees gets a large variance in place of an infinite one.
+  constexpr double kUnseen = 1e-13;
+  const MatX inverse = inverse_of(out.information, free, kUnseen, 1.0 / kUnseen);
   MatX bread = inverse;
   for (double& v : bread.reshaped())
     if (std::isnan(v)) v = 0.0;
   const MatX told = bread * problem.prior_information().asDiagonal() * bread;
   // M^-1 (s^2 H + Q) M^-1, without the difference of large numbers where the data see nothing.
   out.covariance = out.variance_factor * inverse - (out.variance_factor - 1.0) * told;
+  out.departure = MatX::Zero(G, G);
+  MatX seen = out.departure;
+  ChannelVariances channels;
+  if (!noises.empty() && !nothing_left) {
+    seen = inverse_of(out.information, free, kHardlySeen, 0.0);
+    for (double& v : seen.reshaped())
+      if (std::isnan(v)) v = 0.0;
+    channels = ChannelVariances(std::move(noises), seen, problem.prior_information());
+    out.departure = channels.departure(out.variance_factor);
+    out.covariance += seen * out.departure * seen;
+  }
   out.white_covariance = inverse;
   out.growth = VecX::Ones(G);
   double freedom_of_errors = freedom;
@@ -263,16 +302,20 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   Eigen::SelfAdjointEigenSolver<MatX> eigen(out.information.topLeftCorner(P, P) / out.variance_factor);
   out.rank = static_cast<int>((eigen.eigenvalues().array() > 1.0 / (kUnknown * kUnknown)).count());
 
-  const double normal = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence),
-               quantile = nothing_left ? normal
-                                       : boost::math::quantile(boost::math::students_t(freedom_of_errors),
-                                                               0.5 + 0.5 * confidence);
-  out.quantile = quantile;
-  out.student = quantile / normal;
+  const double normal = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
+  // Of what changes along a column of the inverse information.
+  const auto quantile_along = [&](const VecX& z) {
+    if (nothing_left) return normal;
+    const double degrees = std::max(1.0, channels.freedom(z, freedom) * freedom_of_errors / freedom);
+    return boost::math::quantile(boost::math::students_t(degrees), 0.5 + 0.5 * confidence);
+  };
   const std::vector<std::string> names = problem.global_names();
   for (int g = 0; g < G; ++g) {
     ParameterEstimate e;
     e.name = names[g];
+    const double quantile = quantile_along(seen.col(g));
+    e.quantile = quantile;
+    e.student = quantile / normal;
     e.coordinate_error = deviation[g];
     if (g < P) {
       const FittedParameter& p = problem.parameters[g];
@@ -304,9 +347,10 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
     }
     out.parameters.push_back(e);
   }
-  out.confused = confused_errors(
-      problem, fit.globals,
-      {data_information, out.information, out.variance_factor, out.covariance, out.growth, quantile}, fixed);
+  out.confused = confused_errors(problem, fit.globals,
+                                 {data_information, out.information, out.variance_factor, out.departure, out.covariance,
+                                  out.growth, quantile_along},
+                                 fixed);
   for (const ConfusedErrors& group : out.confused) {
     for (const int p : group.parameters) {
       ParameterEstimate& e = out.parameters[static_cast<std::size_t>(p)];

@@ -4,6 +4,7 @@
 //   information                        H = sum A' W J_g
 //   white residuals                    cov = s^2 H^-1,  s^2 = sum psi^2 / (N - k) / mean psi'
 //                                      Huber (1981), section 7.6
+//   channels with noises of their own, estimated by residuals: channel_variances.hpp adds to it, and has degrees of freedom for each estimate
 //   with what was known before, Q      cov = M^-1 (s^2 H + Q) M^-1,  M = H + Q: the fit weighs both by the noise that it was told, and
 //                                      its errors are those of that fit; what was known before is known as well as it was told
 //   residuals that follow one another  cov = H^-1 (sum_l b_l sum_i s_i s_(i+l)') H^-1,  s_i = sum over channels of A_i psi_i,
@@ -34,8 +35,10 @@ struct ParameterEstimate {
   double data_error = std::numeric_limits<double>::quiet_NaN();  // the standard error were the model without fault
   double coordinate_error = std::numeric_limits<double>::quiet_NaN();  // of u: the relative error of a logarithm
   bool identifiable = true;
-  bool by_prior = false;  // the data say next to nothing of it: it is known as well as was assumed before
-  std::string reason;     // why, or why not
+  bool by_prior = false;   // the data say next to nothing of it: it is known as well as was assumed before
+  std::string reason;      // why, or why not
+  double quantile = 1.96;  // half of an interval over its error: Student's of the degrees of freedom of its error
+  double student = 1.0;    // that, over a normal's
 };
 
 struct ResidualSeries {
@@ -47,18 +50,18 @@ struct Inference {
   std::vector<ParameterEstimate> parameters;  // then time offset and biases
   MatX information, covariance, correlation;  // in coordinates, priors included; of the same
   MatX white_covariance;                      // inverse information, without s^2
-  VecX growth;                                // of each variance, since residuals follow one another; no less than 1
-  double variance_factor = 1.0;               // s^2
-  double autocorrelation = 0.0;               // of neighbouring residuals
-  int lags = 0;                               // L; 0: residuals are taken as white
-  double per_independent_one = 1.0;           // residuals of a channel: statistics/effective_samples.hpp
-  long values = 0;                            // N
-  int unknowns = 0;                           // k, start states included
-  double quantile = 1.96;                     // half of an interval over its error: Student's of N - k
-  double student = 1.0;                       // that, over a normal's
-  int rank = 0;                               // directions of the parameters that the data see
-  std::vector<ConfusedErrors> confused;       // standing errors that the data cannot tell apart
-  std::vector<int> impacts;                   // per clearance, in the fitted windows
+  MatX
+      departure;  // what channels' own noises add to the covariance of the scores beyond s^2: ChannelVariances; zero where all have one
+  VecX growth;                           // of each variance, since residuals follow one another; no less than 1
+  double variance_factor = 1.0;          // s^2
+  double autocorrelation = 0.0;          // of neighbouring residuals
+  int lags = 0;                          // L; 0: residuals are taken as white
+  double per_independent_one = 1.0;      // residuals of a channel: statistics/effective_samples.hpp
+  long values = 0;                       // N
+  int unknowns = 0;                      // k, start states included
+  int rank = 0;                          // directions of the parameters that the data see
+  std::vector<ConfusedErrors> confused;  // standing errors that the data cannot tell apart
+  std::vector<int> impacts;              // per clearance, in the fitted windows
   int grazing = 0;
   std::vector<ResidualSeries> residuals;
   std::vector<double> autocorrelations;  // by lag, from 0

@@ -28,7 +28,7 @@ Known known_of(const CalibrationProblem& problem, const Inference& inference) {
   bool any = false;
   for (int p = 0; p < P; ++p) {
     known.u[p] = problem.parameters[p].coordinate(inference.parameters[p].value);
-    known.deviation[p] = inference.student * inference.parameters[p].coordinate_error;
+    known.deviation[p] = inference.parameters[p].student * inference.parameters[p].coordinate_error;
     any = any || tells_combinations(problem, inference, p);
   }
   if (!any) return known;
@@ -54,13 +54,16 @@ Known known_of(const CalibrationProblem& problem, const Inference& inference) {
   information /= inference.variance_factor * growth;
   information.diagonal() += prior(free) + told;
   const Eigen::LDLT<MatX> solver(information);
-  const MatX covariance = solver.solve(MatX::Identity(information.rows(), information.cols()));
-  const VecX back = covariance * told.cwiseProduct(away);
+  const MatX inverse = solver.solve(MatX::Identity(information.rows(), information.cols()));
+  const VecX back = inverse * told.cwiseProduct(away);
+  // Channels with noises of their own scatter otherwise than one variance factor says (channel_variances.hpp).
+  const double s4 = inference.variance_factor * inference.variance_factor;
+  const MatX covariance = inverse + inverse * inference.departure(free, free) * inverse / (s4 * growth);
   for (std::size_t a = 0; a < free.size(); ++a) {
     if (free[a] >= P) continue;
     const auto i = static_cast<Eigen::Index>(a);
     known.u[free[a]] -= back[i];
-    known.deviation[free[a]] = inference.student * std::sqrt(covariance(i, i));
+    known.deviation[free[a]] = inference.parameters[free[a]].student * std::sqrt(covariance(i, i));
     for (std::size_t b = 0; b < free.size(); ++b)
       if (const auto j = static_cast<Eigen::Index>(b); free[b] < P)
         known.correlation(free[a], free[b]) = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
@@ -120,7 +123,7 @@ std::string posterior_toml(const CalibrationProblem& problem, const Inference& i
       distribution = "{ lognormal = { median = " + quantity(e.value, e.si_unit) + ", factor = " + text + " } }";
     } else {
       distribution = "{ normal = { mean = " + quantity(e.value, e.si_unit) +
-                     ", sd = " + quantity(inference.student * e.standard_error, e.si_unit) + " }, truncate = [" +
+                     ", sd = " + quantity(e.student * e.standard_error, e.si_unit) + " }, truncate = [" +
                      quantity(parameter.lower, e.si_unit) + ", " + quantity(parameter.upper, e.si_unit) + "] }";
     }
     out += "\n[[random]]\nparameter = \"" + e.name + "\"\ndistribution = " + distribution + "\n";

@@ -83,7 +83,6 @@ struct Side {
 std::vector<Profile> profile_likelihood(const CalibrationProblem& problem, const FitResult& fit,
                                         const Inference& inference, const std::vector<bool>& fixed, int jobs,
                                         FitResult& lower) {
-  const double rise = inference.quantile * inference.quantile;
   std::vector<int> wanted;
   for (int p = 0; p < problem.parameter_count(); ++p)
     if (!fixed[p] && !problem.parameters[p].is_error() && !problem.parameters[p].has_prior) wanted.push_back(p);
@@ -92,8 +91,15 @@ std::vector<Profile> profile_likelihood(const CalibrationProblem& problem, const
   std::mutex mutex;
   for_each_on_threads(static_cast<int>(points.size()), jobs, [&](int k) {
     Profile& profile = profiles[k / 2];
-    const Side side{
-        problem, fit, inference, fixed, wanted[k / 2], k % 2 == 0 ? -1.0 : 1.0, rise, follows_from_rest(problem)};
+    const double quantile = inference.parameters[static_cast<std::size_t>(wanted[k / 2])].quantile;
+    const Side side{problem,
+                    fit,
+                    inference,
+                    fixed,
+                    wanted[k / 2],
+                    k % 2 == 0 ? -1.0 : 1.0,
+                    quantile * quantile,
+                    follows_from_rest(problem)};
     const double distance = side.crossing(points[k], [&](FitResult found) {
       const std::lock_guard lock(mutex);
       if (found.cost < lower.cost) lower = std::move(found);
@@ -125,7 +131,7 @@ void take_intervals(const std::vector<Profile>& profiles, const CalibrationProbl
     const FittedParameter& parameter = problem.parameters[profile.parameter];
     const double width = parameter.coordinate(high) - parameter.coordinate(low);
     if (!std::isfinite(width)) continue;
-    const double error = 0.5 * width / inference.quantile, grow = error / e.coordinate_error;
+    const double error = 0.5 * width / e.quantile, grow = error / e.coordinate_error;
     inference.covariance.row(profile.parameter) *= grow;
     inference.covariance.col(profile.parameter) *= grow;
     e.standard_error *= grow;

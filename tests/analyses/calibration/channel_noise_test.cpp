@@ -63,34 +63,5 @@ TEST(NoiseFromDifferences, IsNoLessThanTheLastDigitOfReadingsLeaves) {
   EXPECT_NEAR(noise_from_differences(of_one_channel(readings))[0], 1e-6 / std::sqrt(12.0), 1e-12);
 }
 
-// Rotations about x and y, and the pointing axis' x, 60 readings each; file_of as a run keeps it.
-CalibrationProblem of_three_angles(const std::vector<std::string>& file_of) {
-  MeasuredData data;
-  data.channels = {3, 4, 6};
-  data.file_of = file_of;
-  data.value = MatX::Zero(60, 3);
-  for (int i = 0; i < 60; ++i) {
-    data.time.push_back(0.0008 * i);
-    data.line.push_back(i + 2);
-  }
-  CalibrationProblem problem;
-  problem.runs.emplace_back("run", four_bar::mechanism(2.0, 0.05), data);
-  problem.prepare(10.0, true);
-  return problem;
-}
-
-// Noises that differ by a factor of two, which 60 readings hardly tell: one instrument's are taken for one, two instruments' are not.
-TEST(PooledNoise, IsThatOfChannelsOfOneInstrument) {
-  const VecX own = Vec3(2e-6, 2e-6, 1e-6);
-  const VecX of_one = pooled_where_alike(of_three_angles({}), own, 4.0);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(of_one[c], std::sqrt(3.0) * 1e-6, 1e-12);
-  const VecX of_two =
-      pooled_where_alike(of_three_angles({"autocollimator.csv", "autocollimator.csv", "target.csv"}), own, 4.0);
-  EXPECT_NEAR((of_two - own).norm(), 0.0, 1e-15);
-  // Of one instrument all the same where they are unlike.
-  const VecX unlike = Vec3(2e-6, 3e-6, 1e-3);
-  EXPECT_NEAR(pooled_where_alike(of_three_angles({}), unlike, 4.0)[2], 1e-3, 1e-15);
-}
-
 }  // namespace channel_noise_test
 }  // namespace boresight

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <random>
+#include <set>
 
 #include "boresight/io/expression.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -104,6 +105,75 @@ TEST(PointingModel, ChannelsOfUnequalNoiseCoverAsOftenAsStated) {
       EXPECT_NEAR(ratio, 1.0, 3.5 / std::sqrt(2.0 * kNights)) << kSix[p] << ' ' << of.noise[0] << ' ' << of.stars;
     }
   }
+}
+
+// Two channels of one data file, the second one `noisier` times as noisy as the first; of as many nights. Widths beside those of the known noise.
+void expect_coverage_of_two_channels(int stars, double noisier, Loss loss, int nights) {
+  const Bench bench(gimbal(), kSix, {6, 8}, stars);
+  const std::vector<double> noise = {kArcsec, noisier * kArcsec};
+  CalibrationOptions known;
+  known.noise = VecX::Constant(static_cast<Eigen::Index>(channel_names().size()), kArcsec);
+  known.noise[8] = noise[1];
+  CalibrationProblem exact = bench.problem({0.0, 0.0}, 1);
+  exact.loss.kind = Loss::none;
+  const VecX ideal = calibrate(exact, known).inference.white_covariance.diagonal().cwiseSqrt();
+  std::vector<Coverage> coverage(kSix.size());
+  VecX width = VecX::Zero(6);
+  for (int night = 0; night < nights; ++night) {
+    CalibrationProblem problem = bench.problem(noise, static_cast<unsigned>(20000 + night));
+    problem.loss.kind = loss;
+    const CalibrationResult result = calibrate(problem, {});
+    for (std::size_t p = 0; p < kSix.size(); ++p) {
+      const ParameterEstimate& e = result.inference.parameters[p];
+      const auto i = static_cast<Eigen::Index>(p);
+      coverage[p].add(bench.truth(kSix[p]), e.low, e.high);
+      width[i] += 0.5 * (e.high - e.low) / (1.96 * ideal[i] * problem.parameters[p].size) / nights;
+    }
+  }
+  double least = 1.0, most = 0.0;
+  for (std::size_t p = 0; p < kSix.size(); ++p) {
+    least = std::min(least, coverage[p].share());
+    most = std::max(most, coverage[p].share());
+    EXPECT_GT(coverage[p].share(), 0.95 - coverage[p].allowed()) << kSix[p] << ' ' << stars << ' ' << noisier;
+    // Student's of some twenty degrees of freedom is a twentieth wider than a normal distribution, and Huber's weights lose another.
+    EXPECT_LT(width[static_cast<Eigen::Index>(p)], 1.12) << kSix[p] << ' ' << stars << ' ' << noisier;
+  }
+  std::printf("  %3d stars, noises 1 : %.0f: %.1f to %.1f %% inside, widths %.2f to %.2f of those of known noise\n",
+              stars, noisier, 100.0 * least, 100.0 * most, width.minCoeff(), width.maxCoeff());
+}
+
+TEST(PointingModel, IntervalsHoldWhereThirtyStarsCouldNotTellANoiseFromOneOfTwiceItsSize) {
+  for (const double noisier : {1.0, 2.0}) expect_coverage_of_two_channels(30, noisier, Loss::huber, 400);
+}
+
+TEST(PointingModelNight, IntervalsOfTwoChannelsHoldWhateverTheirNoisesAndHowManyStars) {
+  for (const Loss loss : {Loss::none, Loss::huber})
+    for (const int stars : {30, 60, 100, 300})
+      for (const double noisier : {0.25, 0.5, 1.0, 2.0, 4.0})
+        expect_coverage_of_two_channels(stars, noisier, loss, 400);
+}
+
+// Channels keep their own noise however alike they look, but for those that could follow their readings exactly.
+TEST(PointingModel, ChannelsShareANoiseWhereTheyHaveHardlyMoreReadingsThanTermsAlone) {
+  const auto noises = [](int stars, const CalibrationOptions& options) {
+    const Bench bench(gimbal(), kSix, {6, 7, 8}, stars);
+    CalibrationProblem problem = bench.problem(std::vector<double>(3, kArcsec), 7);
+    calibrate(problem, options);
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        EXPECT_EQ(problem.noise_of[a] == problem.noise_of[b],
+                  problem.sigma[static_cast<Eigen::Index>(a)] == problem.sigma[static_cast<Eigen::Index>(b)]);
+    return problem.noise_of;
+  };
+  EXPECT_EQ(noises(30, {}), (std::vector{0, 1, 2}));
+  // The first two see all six terms, the last one three.
+  const std::vector<int> of_eight = noises(8, {});
+  EXPECT_LT(std::set<int>(of_eight.begin(), of_eight.end()).size(), 3u);
+  CalibrationOptions one_told;
+  one_told.noise =
+      VecX::Constant(static_cast<Eigen::Index>(channel_names().size()), std::numeric_limits<double>::quiet_NaN());
+  one_told.noise[7] = kArcsec;
+  EXPECT_EQ(noises(30, one_told)[1], -1);
 }
 
 TEST(PointingModel, TermsOfAMilliradianAreFoundExactlyInDataWithoutNoise) {
