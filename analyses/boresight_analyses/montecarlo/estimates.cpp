@@ -224,7 +224,7 @@ Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan
             [&](const auto& raised) { return probability_interval(raised, asked.limit, verdict.judgement); });
         verdict.met = verdict.met && reaches(*verdict.within_error);
       }
-      verdict.fewest_samples = fewest_samples({asked.probability, asked.confidence}, verdict.judgement);
+      verdict.fewest_samples = fewest_samples(plan, verdict.judgement);
       result.requirement = verdict;
     }
     return ReportedInterval{};
@@ -236,7 +236,7 @@ Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan
       result.requirement = RequirementVerdict{
           .probability = too_few(plan.requirement->confidence),
           .judgement = judged(),
-          .fewest_samples = wilks_one_sided(plan.requirement->probability, plan.requirement->confidence)};
+          .fewest_samples = fewest_samples(plan, {.confidence = plan.requirement->confidence, .why = ""})};
   }
   for (const NamedEstimate& e : result.index)
     if (std::isfinite(e.interval.value)) result.errors.push_back(error_of(e, model));

@@ -26,7 +26,7 @@ struct RequirementVerdict {
   bool met = false;  // shown to be met: the lower bound of the probability reaches what is asked, of `within_error` too
   ReportedInterval probability;     // low and high are one-sided bounds, each at the requirement's confidence
   Judgement judgement = {};         // by which these bounds hold: looks.hpp
-  std::int64_t fewest_samples = 0;  // independent ones that could show it at all, if none is above the limit
+  std::int64_t fewest_samples = 0;  // of its design that could show it at all, if none is above the limit
   // By how much rung and steps may be off, relative, of the samples' mean where each has its own (0 where not known); and the share of samples
   // that stay below the limit even if each of them is off by as much.
   double model_error = 0.0;

@@ -27,6 +27,9 @@ LookedAt looked_at_of(const MonteCarloPlan& plan);
 Judgement judgement_of(const MonteCarloPlan& plan, std::uint64_t samples, const std::optional<FirstLook>& first);
 FirstLook first_look_of(const MonteCarloPlan& plan, std::uint64_t samples);
 
+// The fewest samples of the plan's design that could show the requirement at all, if all of them are good.
+std::int64_t fewest_samples(const MonteCarloPlan& plan, const Judgement& judgement);
+
 // The confidence of the interval that `stop` looks at: it is looked at for every number of samples at which the study may
 // end, and holds at each of them by an equal part of the risk. plan.confidence for the other estimates.
 double interval_confidence(const MonteCarloPlan& plan, const std::string& headline);

@@ -10,6 +10,7 @@
 
 #include "boresight_analyses/statistics/bonett.hpp"
 #include "boresight_analyses/statistics/gaffke.hpp"
+#include "boresight_analyses/statistics/unseen_share.hpp"
 
 namespace boresight {
 namespace {
@@ -148,10 +149,10 @@ ReplicatedInterval ReplicatedSamples::probability_below(double limit, double con
                             "Student's t on the logit scale" + over(replicates()) + ", not closer than Gaffke's"};
   const bool all_good = shares == std::vector<double>(shares.size(), 1.0), all_bad = p == 0.0;
   if (all_good || all_bad) {
-    const double bound = 1.0 - std::pow(0.5 * (1.0 - confidence), 1.0 / double(replicates()));
-    (all_good ? result.low : result.high) = all_good ? 1.0 - bound : bound;
-    result.basis = std::string("no ") + (all_good ? "bad" : "good") + " sample: Markov's bound" + over(replicates()) +
-                   ", valid for any design; independent samples bound it far closer";
+    const double unseen = unseen_share(replicates(), size, 0.5 * (1.0 - confidence));
+    (all_good ? result.low : result.high) = all_good ? 1.0 - unseen : unseen;
+    result.basis = std::string("no ") + (all_good ? "bad" : "good") + " sample: Clopper-Pearson" + over(replicates()) +
+                   ", two such samples together where there are any";
     return result;
   }
   const double rounding = 1.0 / (size * std::sqrt(12.0 * double(replicates())));

@@ -36,7 +36,7 @@ class ReplicatedSamples {
   // unbounded.
   ReplicatedInterval quantile(double p, double confidence) const;
   // P(value <= limit), failed samples bad; on the logit scale. Where all samples are good (bad) the replicates do not
-  // scatter; the bound is then Markov's, (1 - risk)-wise valid for any design: P(a replicate holds a bad one) >= P(bad).
+  // scatter; the bound is then that of unseen_share.hpp.
   ReplicatedInterval probability_below(double limit, double confidence) const;
 
  private:

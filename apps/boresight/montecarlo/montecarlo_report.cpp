@@ -340,7 +340,11 @@ std::string verdict_sentence(const MonteCarloStudy& s) {
         "missed of it, the share would be {}. A more exact rung may show it.",
         s.rung.name, readable_error(found.model_error), readable_near_all(found.within_error->value));
   else if (!found.met && found.judgement.by != Judgement::By::nothing && found.probability.value >= asked.probability)
-    text += " The samples do not contradict it; more of them may show it.";
+    text +=
+        s.plan.design.kind == SamplingKind::random
+            ? " The samples do not contradict it; more of them may show it."
+            : " The samples do not contradict it. A study of more samples, with another seed and in a folder of its "
+              "own, may show it.";
   return text;
 }
 

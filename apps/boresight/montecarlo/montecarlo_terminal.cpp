@@ -24,7 +24,11 @@ void announce(const MonteCarloQuestion& question, const RungChoice& choice, bool
   } else if (accuracy_asked) {
     tell("  rung: {}, {}\n", choice.name, choice.why);
   }
-  if (plan.requirement) {
+  if (plan.requirement && plan.design.kind != SamplingKind::random) {
+    tell("  to show {:g} % with {:g} % confidence takes {} samples of this design if none is above the limit\n",
+         100.0 * plan.requirement->probability, 100.0 * plan.requirement->confidence,
+         fewest_samples(plan, {.confidence = plan.requirement->confidence, .why = ""}));
+  } else if (plan.requirement) {
     const auto fewest = [&](std::int64_t above) {
       return wilks_one_sided(plan.requirement->probability, plan.requirement->confidence, above);
     };

@@ -317,8 +317,7 @@ class MonteCarloVerb : public Verb {
                       "leave them out",
                       estimates.failed, estimates.samples) +
           first_failure_text(failures, "sample"));
-    if (plan.requirement && plan.design.kind == SamplingKind::random &&
-        static_cast<std::int64_t>(result.values.size()) < estimates.requirement->fewest_samples)
+    if (plan.requirement && static_cast<std::int64_t>(result.values.size()) < estimates.requirement->fewest_samples)
       warnings.push_back(fmt::format("the requirement cannot be shown with {} samples, whatever they give: it takes {}",
                                      result.values.size(), estimates.requirement->fewest_samples));
     return warnings;

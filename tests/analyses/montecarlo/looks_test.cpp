@@ -105,6 +105,25 @@ TEST(Looks, ARequirementMetWithRoomIsShownByALaterLook) {
   EXPECT_TRUE(estimate(uniform_values(engine, 3000), plan, {}, judgement_of(plan, 3000, first)).requirement->met);
 }
 
+// A study none of whose samples is bad: of as many as it takes it is met, of one replicate less, or of nets of half the size, it is not.
+TEST(Looks, NetsAndHypercubesSayHowManySamplesItTakes) {
+  for (const SamplingKind kind : {SamplingKind::lhs, SamplingKind::sobol})
+    for (const double probability : {0.9, 0.95, 0.9973}) {
+      MonteCarloPlan plan = sum_plan(1, kind);
+      plan.design.strata = 20;
+      plan.requirement = Requirement{2.0, probability, kConfidence};
+      const Judgement judgement = judgement_of(plan, 1, std::nullopt);
+      const auto fewest = static_cast<std::uint64_t>(fewest_samples(plan, judgement));
+      for (const bool enough : {true, false}) {
+        plan.samples = enough ? fewest : kind == SamplingKind::lhs ? fewest - plan.design.strata : fewest / 2;
+        const Estimates e =
+            estimate(std::vector<double>(plan.samples, 1.0), plan, {}, judgement_of(plan, plan.samples, std::nullopt));
+        EXPECT_EQ(e.requirement->met, enough) << to_string(kind) << ", " << plan.samples << " for " << probability;
+        EXPECT_EQ(e.requirement->fewest_samples, fewest);
+      }
+    }
+}
+
 TEST(Looks, NetsAndHypercubesHaveOne) {
   MonteCarloPlan plan = sum_plan(1600, SamplingKind::sobol);
   plan.requirement = Requirement{20.0, kProbability, kConfidence};

@@ -46,11 +46,62 @@ TEST(ReplicatedSamples, AreRefusedWhereTheyGiveNoInterval) {
   EXPECT_THROW(ReplicatedSamples(Lists{{1.0}, {std::nan("")}}), std::invalid_argument);
 }
 
-TEST(ReplicatedSamples, WithoutABadSampleAreBoundedByMarkov) {
+TEST(ReplicatedSamples, WithoutABadSampleAreBoundedByReplicatesThatHoldTwoOrNone) {
   const ReplicatedInterval p = ReplicatedSamples(Lists{{1, 2}, {1, 2}, {1, 2}, {1, 2}}).probability_below(3.0, 0.95);
   EXPECT_EQ(p.value, 1.0);
   EXPECT_NEAR(p.low, std::pow(0.025, 0.25), 1e-14);
   EXPECT_EQ(p.high, 1.0);
+  const Lists nets(16, std::vector<double>(256, 1.0));
+  EXPECT_NEAR(ReplicatedSamples(nets).probability_below(3.0, 0.95).low,
+              1.0 - (1.0 - std::pow(0.025, 1.0 / 16.0)) / 128.0, 1e-14);
+  EXPECT_NEAR(ReplicatedSamples(nets).probability_below(0.0, 0.95).high, (1.0 - std::pow(0.025, 1.0 / 16.0)) / 128.0,
+              1e-14);
+}
+
+// The same samples against wider and wider limits: none bound it more closely than the one that all of them keep.
+TEST(ReplicatedSamples, WithoutABadSampleAreSurerThanWithSome) {
+  struct Design {
+    int replicates, size;
+  };
+  for (const Design& d :
+       {Design{2, 500}, Design{4, 64}, Design{8, 32}, Design{16, 4}, Design{16, 256}, Design{30, 20}}) {
+    Lists dealt(static_cast<std::size_t>(d.replicates));
+    const int all = d.replicates * d.size;
+    for (int k = 0; k < all; ++k) dealt[static_cast<std::size_t>(k % d.replicates)].push_back(k);
+    const ReplicatedSamples samples(dealt);
+    for (const double confidence : {0.8, 0.9, 0.98}) {
+      const double surest = samples.probability_below(all, confidence).low;
+      for (int bad = 1; bad < std::min(60, all); ++bad)
+        EXPECT_GT(surest, samples.probability_below(all - bad - 0.5, confidence).low)
+            << d.replicates << " of " << d.size << ", " << bad << " bad";
+    }
+  }
+}
+
+// Two parameters alike within a little: bad samples of a hypercube lie along its diagonal and come together more often than independent
+// ones do.
+TEST(ReplicatedSamples, WithoutABadSampleAreNotSurerThanTheySay) {
+  constexpr double kRisk = 0.05;
+  std::mt19937_64 engine(5);
+  struct Design {
+    int replicates, size;
+  };
+  for (const Design& d : {Design{16, 4}, Design{10, 10}, Design{20, 20}}) {
+    const double low = ReplicatedSamples(Lists(static_cast<std::size_t>(d.replicates),
+                                               std::vector<double>(static_cast<std::size_t>(d.size), 0.0)))
+                           .probability_below(1.0, 1.0 - 2.0 * kRisk)
+                           .low;
+    const double within = 1.0 - std::sqrt(low);  // P(|x - y| < within) = 1 - (1 - within)^2
+    constexpr int kDrawn = 20000;
+    int without = 0;
+    for (int k = 0; k < kDrawn; ++k) {
+      const Points points = repetition::latin_hypercube(engine, d.size, 2);
+      without += std::none_of(points.begin(), points.end(),
+                              [&](const std::vector<double>& u) { return std::abs(u[0] - u[1]) < within; });
+    }
+    const double chance = double(without) / kDrawn, error = std::sqrt(chance * (1.0 - chance) / kDrawn);
+    EXPECT_LE(std::pow(chance - 2.0 * error, d.replicates), kRisk) << d.replicates << " of " << d.size;
+  }
 }
 
 TEST(ReplicatedSamples, LeaveATailWithFewSamplesUnbounded) {
