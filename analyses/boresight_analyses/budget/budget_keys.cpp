@@ -262,7 +262,9 @@ const KeyTable& posterior_keys() {
   static const KeyTable table_of_keys{
       .name = "posterior",
       .says = "The posterior.toml that `calibrate` writes and [budget] may name.",
-      .keys = {tables("random", random_keys).says("The calibrated parameters and what is known of them."),
+      .keys = {tables("random", random_keys)
+                   .at_least_of(1, "at least one [[random]] table: what is known of a parameter")
+                   .says("The calibrated parameters and what is known of them."),
                tables("correlation", correlation_keys)
                    .sometimes("left out, all are independent")
                    .says("How their errors depend on each other."),

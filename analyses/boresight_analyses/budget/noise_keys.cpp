@@ -175,7 +175,9 @@ const KeyTable& through_keys() {
                    .says("A loop of second order, of its sensor's error."),
                table("sensitivity", sensitivity_keys).sometimes(one).says("A loop of second order, of a disturbance."),
                table("ratio", ratio_keys).sometimes(one).says("A ratio of polynomials."),
-               table("loop", loop_keys).sometimes(one).says("A closed loop by its open loop.")}};
+               table("loop", loop_keys).sometimes(one).says("A closed loop by its open loop.")},
+      .one_of = {"first_order", "second_order", "sensitivity", "ratio", "loop"},
+      .one_of_what = "transfer function"};
   return table_of_keys;
 }
 

@@ -55,16 +55,7 @@ TransferFunction read_ratio(Cursor& table) {
 
 TransferFunction read_one(Cursor& table) {
   table.only(through_keys());
-  const std::vector<std::string> given = table.keys();
-  if (given.size() != 1)
-    throw InputError(
-        table.origin(), table.path(), std::to_string(given.size()) + " transfer functions in one table",
-        "one of " + [] {
-          std::string all;
-          for (const std::string& name : through_keys().names()) all += (all.empty() ? "" : ", ") + name;
-          return all;
-        }());
-  const std::string& kind = given.front();
+  const std::string kind = table.the_one();
   Cursor of = table.table(kind);
   of.only(through_keys().find(kind)->inside());
   TransferFunction out({1.0}, {1.0});

@@ -84,12 +84,17 @@ const KeyTable& calibrate_sensor_keys() {
 }
 
 const KeyTable& sensor_columns_keys() {
-  static const KeyTable table_of_keys =
-      by_channel("calibrate.run.sensor.columns", "The column that each channel is.", [](const ChannelName& channel) {
-        return keys::text(channel.name)
-            .sometimes("left out, the sensor does not measure it")
-            .says(std::string("Header of the column of ") + channel.title + ", with its unit or without.");
-      });
+  static const KeyTable table_of_keys = [] {
+    KeyTable t =
+        by_channel("calibrate.run.sensor.columns", "The column that each channel is.", [](const ChannelName& channel) {
+          return keys::text(channel.name)
+              .sometimes("left out, the sensor does not measure it")
+              .says(std::string("Header of the column of ") + channel.title + ", with its unit or without.");
+        });
+    t.fewest = 1;
+    t.fewest_expected = "at least one channel, such as { dx = \"X dev\" }";
+    return t;
+  }();
   return table_of_keys;
 }
 
@@ -134,7 +139,6 @@ PlannedSensor read_sensor(Cursor table, const std::string& study_file) {
   for (const std::string& name : columns.keys())
     as.columns.push_back({channel_called(name), columns.text(name), "", 1.0});
   columns.finish();
-  table.require(!as.columns.empty(), "columns", "at least one channel, such as { dx = \"X dev\" }");
   const auto of = [&](Cursor& inside, const std::string& name) -> ReadColumn& {
     for (ReadColumn& c : as.columns)
       if (c.channel == channel_called(name)) return c;

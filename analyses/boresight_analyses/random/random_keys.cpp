@@ -74,37 +74,40 @@ const KeyTable& distribution_keys() {
   static const KeyTable table_of_keys{
       .name = "distribution",
       .says = "A distribution; its values have the unit of what scatters.",
-      .keys = {
-          family("normal", normal_keys, "Normal distribution."),
-          family("uniform", uniform_keys, "Uniform distribution."),
-          family("lognormal", lognormal_keys, "Lognormal distribution."),
-          family("triangular", triangular_keys, "Triangular distribution."),
-          family("beta", beta_keys, "Beta distribution between two ends."),
-          family("weibull", weibull_keys, "Weibull distribution."),
-          family("discrete", discrete_keys, "Some values, each with a probability."),
-          family("empirical", empirical_keys, "The values of a CSV column, each as probable as any other."),
-          text("fit")
-              .sometimes(one + "; for a radial clearance only")
-              .says("An ISO 286 fit such as \"20 H7/g6\" (nominal size in mm): hole and shaft lie independently in "
-                    "their zones, "
-                    "and the radial clearance is half their difference."),
-          family("planes", planes_keys, "A tolerance zone between two parallel planes (ISO 1101)."),
-          table("cylinder", cylinder_keys)
-              .sometimes(one + "; for two parameters that are drawn together")
-              .says("A cylindrical tolerance zone (ISO 1101): a point of a disc."),
-          table("rows", rows_keys)
-              .sometimes(one + "; for parameters that are drawn together")
-              .says("The rows of a CSV file, such as draws of a posterior: all parameters take their values from the "
-                    "same row."),
-          choice("zone",
-                 std::vector<KeyChoice>{{"normal", "centred, the zone is six standard deviations wide and cut there"},
-                                        {"uniform", "any place in the zone is as probable as any other"}})
-              .otherwise("normal")
-              .says("How sizes, places and tilts lie in their tolerance zones; with fit, planes and cylinder only."),
-          values("truncate", "the parameter")
-              .of_length({2}, "[low, high], the second one larger")
-              .sometimes("left out, nothing is cut")
-              .says("Keeps what lies between [low, high], renormalised.")}};
+      .keys =
+          {family("normal", normal_keys, "Normal distribution."),
+           family("uniform", uniform_keys, "Uniform distribution."),
+           family("lognormal", lognormal_keys, "Lognormal distribution."),
+           family("triangular", triangular_keys, "Triangular distribution."),
+           family("beta", beta_keys, "Beta distribution between two ends."),
+           family("weibull", weibull_keys, "Weibull distribution."),
+           family("discrete", discrete_keys, "Some values, each with a probability."),
+           family("empirical", empirical_keys, "The values of a CSV column, each as probable as any other."),
+           text("fit")
+               .sometimes(one + "; for a radial clearance only")
+               .says("An ISO 286 fit such as \"20 H7/g6\" (nominal size in mm): hole and shaft lie independently in "
+                     "their zones, "
+                     "and the radial clearance is half their difference."),
+           family("planes", planes_keys, "A tolerance zone between two parallel planes (ISO 1101)."),
+           table("cylinder", cylinder_keys)
+               .sometimes(one + "; for two parameters that are drawn together")
+               .says("A cylindrical tolerance zone (ISO 1101): a point of a disc."),
+           table("rows", rows_keys)
+               .sometimes(one + "; for parameters that are drawn together")
+               .says("The rows of a CSV file, such as draws of a posterior: all parameters take their values from the "
+                     "same row."),
+           choice("zone",
+                  std::vector<KeyChoice>{{"normal", "centred, the zone is six standard deviations wide and cut there"},
+                                         {"uniform", "any place in the zone is as probable as any other"}})
+               .otherwise("normal")
+               .says("How sizes, places and tilts lie in their tolerance zones; with fit, planes and cylinder only."),
+           values("truncate", "the parameter")
+               .of_length({2}, "[low, high], the second one larger")
+               .sometimes("left out, nothing is cut")
+               .says("Keeps what lies between [low, high], renormalised.")},
+      .one_of = {"normal", "uniform", "lognormal", "triangular", "beta", "weibull", "discrete", "empirical", "fit",
+                 "planes", "cylinder", "rows"},
+      .one_of_what = "distribution"};
   return table_of_keys;
 }
 

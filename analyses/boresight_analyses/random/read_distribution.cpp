@@ -124,26 +124,16 @@ DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::
                                   double nominal) {
   entry.only(distribution_keys());
   DistributionPtr distribution;
-  const char* first = nullptr;
-  const auto one_only = [&](const char* name) {
-    if (first != nullptr) entry.fail_found(name, std::string(first) + " and " + name, "one distribution");
-    first = name;
-  };
   for (const Family& family : kFamilies) {
     if (!entry.has(family.name)) continue;
-    one_only(family.name);
     if (!entry.is_table(family.name)) entry.fail(family.name, "a table of its numbers, such as { min = .., max = .. }");
     Cursor table = entry.table(family.name);
     table.only(family.keys());
     distribution = family.read(table, unit);
     table.finish();
   }
-  if (entry.has("fit")) {
-    one_only("fit");
-    distribution = fit(entry, journals);
-  }
+  if (entry.has("fit")) distribution = fit(entry, journals);
   if (entry.has("planes")) {
-    one_only("planes");
     Cursor table = entry.table("planes");
     table.only(planes_keys());
     const double reach = read_zone_reach(table, "width", unit);
@@ -158,10 +148,6 @@ DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::
   if (entry.has("rows"))
     entry.fail_found("rows", "the rows of a table",
                      "a distribution of one parameter; [[random]] parameters = [..] take rows");
-  if (!distribution)
-    throw InputError(entry.origin(), entry.path(), "no distribution",
-                     "one of normal, uniform, lognormal, triangular, beta, weibull, discrete, empirical, fit, planes, "
-                     "cylinder, rows");
   if (entry.has("truncate")) {
     const std::vector<double> bounds = entry.values("truncate", unit);
     entry.require(bounds[1] > bounds[0], "truncate", "[low, high], the second one larger");

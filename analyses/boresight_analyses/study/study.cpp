@@ -23,6 +23,7 @@ Study read_study(Cursor& root, const std::string& content_hash) {
       mechanism.is_absolute()
           ? mechanism.string()
           : (std::filesystem::path(study.file).parent_path() / mechanism).lexically_normal().string();
+  if (root.has("random")) root.tables("random");  // there are some, whichever verb reads them
   if (root.has("accuracy")) study.accuracy = root.quantity("accuracy");
   if (root.has("index")) {
     Cursor index = root.table("index");

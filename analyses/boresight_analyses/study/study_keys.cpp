@@ -36,6 +36,7 @@ const KeyTable& study_keys() {
               .sometimes("left out, the index is position_error.max")
               .says("The one number of a motion that the study is about."),
           tables("random", nullptr)
+              .at_least_of(1, "at least one [[random]] table: what scatters, and how")
               .sometimes("needed where something scatters")
               .for_verbs(scattering)
               .says("The parameters that scatter, one table each."),

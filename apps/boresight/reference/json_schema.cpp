@@ -5,35 +5,14 @@
 #include <stdexcept>
 
 #include "reference/key_facts.hpp"
+#include "reference/quantity_pattern.hpp"
 
 namespace boresight::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A number and a unit, or anything with the {i} of a pattern. Units have no offset, so that zero and the sign are the same in each.
-enum class Sign { any, not_negative, positive };
-
-Json quantity(Sign sign = Sign::any) {
-  // "-0 mm" is zero.
-  const std::string begin = sign == Sign::any            ? "[-+]?"
-                            : sign == Sign::not_negative ? "(\\+|-(?=[0.]+(?![0-9.])))?"
-                                                         : "\\+?(?=[0.]*[1-9])";
-  return {{"type", "string"},
-          {"pattern", "^[ \\t]*" + begin +
-                          "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?(?![0-9.]|[eE][-+]?[0-9])"
-                          "([ \\t]*[^-+ \\t0-9.]|[ \\t]+1).*$"
-                          "|\\{i\\}"}};
-}
-
-Json quantity(const Key& key) {
-  Sign sign = Sign::any;
-  for (const KeyBound& bound : key.bounds) {
-    if (bound.least > 0.0 || (bound.least == 0.0 && bound.above)) return quantity(Sign::positive);
-    if (bound.least == 0.0) sign = Sign::not_negative;
-  }
-  return quantity(sign);
-}
+Json quantity(const Key& key) { return {{"type", "string"}, {"pattern", quantity_pattern(key)}}; }
 
 Json text_of(const Key& key) {
   Json schema = {{"type", "string"}};
@@ -169,6 +148,12 @@ Json schema_of(const KeyTable& table) {
   schema["properties"] = properties;
   if (!required.empty()) schema["required"] = required;
   schema["additionalProperties"] = false;
+  if (table.fewest > 0) schema["minProperties"] = table.fewest;
+  if (!table.one_of.empty()) {
+    Json each = Json::array();
+    for (const std::string& name : table.one_of) each.push_back({{"required", {name}}});
+    schema["oneOf"] = each;
+  }
   return schema;
 }
 

@@ -14,6 +14,12 @@ namespace {
 
 const Node kEmptyTable;
 
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 }  // namespace
 
 Cursor::Cursor(Document& document) : Cursor(document, document.root(), "") {}
@@ -83,15 +89,28 @@ void Cursor::require(bool condition, const std::string& key, const std::string& 
 
 void Cursor::only(const KeyTable& known) {
   keys_ = &known;
+  if (node_->members.size() < known.fewest && document_->setting_under(path_) == nullptr)
+    throw InputError(origin(), path(), node_->members.empty() ? "an empty table" : "too few keys",
+                     known.fewest_expected);
   if (known.any_name) return;
   const std::vector<std::string> names = known.names();
   for (const auto& [key, node] : node_->members) {
     if (std::find(names.begin(), names.end(), key) != names.end()) continue;
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-    throw InputError({document_->filename(), node.line}, path(key), "an unknown key", "one of " + list,
+    throw InputError({document_->filename(), node.line}, path(key), "an unknown key", "one of " + listed(names),
                      nearest_name(key, names));
   }
+  if (!known.one_of.empty()) the_one();
+}
+
+std::string Cursor::the_one() const {
+  std::string found;
+  for (const std::string& name : keys_->one_of) {
+    if (!has(name)) continue;
+    if (!found.empty()) fail_found(name, found + " and " + name, "one " + keys_->one_of_what);
+    found = name;
+  }
+  if (found.empty()) throw InputError(origin(), path(), "no " + keys_->one_of_what, "one of " + listed(keys_->one_of));
+  return found;
 }
 
 void Cursor::finish() const {

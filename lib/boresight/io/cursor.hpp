@@ -38,8 +38,10 @@ class Cursor {
  public:
   explicit Cursor(Document& document);
 
-  // From here on this table says what may be read; any key of the file that it lacks is refused at once.
+  // From here on this table says what may be read; any key of the file that it lacks is refused at once, and so is too little of what it asks for.
   void only(const KeyTable& keys);
+  // Of the keys of which exactly one stands in such a table, the one that does.
+  std::string the_one() const;
   // Refuses keys that were given but not read since.
   void finish() const;
 

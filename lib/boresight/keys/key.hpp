@@ -129,10 +129,14 @@ struct Key {
 
 // One table of a file.
 struct KeyTable {
-  std::string name;       // "clearance.contact"; "mechanism", "study" of the file itself
-  std::string says;       // a sentence for people
-  std::vector<Key> keys;  // in the order of messages and of the reference
-  bool any_name = false;  // its names are the user's: the one key says what stands behind each
+  std::string name;                      // "clearance.contact"; "mechanism", "study" of the file itself
+  std::string says;                      // a sentence for people
+  std::vector<Key> keys;                 // in the order of messages and of the reference
+  bool any_name = false;                 // its names are the user's: the one key says what stands behind each
+  std::vector<std::string> one_of = {};  // exactly one of these keys stands in it; empty: whatever each of them says
+  std::string one_of_what = {};          // what that one is, "distribution", for the error's text
+  std::size_t fewest = 0;                // keys that stand in it
+  std::string fewest_expected = {};      // for the error's text
 
   const Key* find(const std::string& key) const;
   std::vector<std::string> names() const;

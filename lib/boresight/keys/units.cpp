@@ -167,21 +167,31 @@ bool counts_from_a_zero(std::string_view text) {
   return parsed != nullptr && ut_accept_visitor(parsed.get(), &kVisitor, &unit) == UT_SUCCESS && !unit.plain;
 }
 
+// What is proposed in place of an unknown unit.
 constexpr std::array<const char*, 28> kCommonUnits = {
     "mm", "um", "m",  "km", "deg", "arcmin", "arcsec", "rad", "mrad", "urad",   "rpm",    "rad/s", "deg/s", "Hz",
     "s",  "ms", "kg", "g",  "N",   "kN",     "N m",    "N/m", "GPa",  "kg/m^3", "kg m^2", "m/s",   "mm/s",  "m/s^2"};
+// Others.
+constexpr const char* kMoreUnits[] = {
+    "cm",     "nm",   "us",   "ns",     "min",    "h",        "mg",  "t",    "mN",   "MN",     "mN m",
+    "Nm",     "kN m", "Pa",   "kPa",    "MPa",    "kHz",      "MHz", "N/mm", "N/um", "kN/m",   "N s/m",
+    "g/cm^3", "K",    "mK",   "1/K",    "m^-1",   "1/m",      "s/m", "um/s", "km/s", "mm/s^2", "rad/s^2",
+    "mas",    "gon",  "nrad", "degree", "mrad/s", "arcsec/s", "%",   "ppm",  "1"};
+
+bool is_of(const Unit& unit, const SiUnit& expected) {
+  for (std::string_view rest = expected.unit; !rest.empty();) {
+    const std::string_view one = rest.substr(0, rest.find('|'));
+    if (const Unit* si = known_unit(one); si != nullptr && unit.powers == si->powers) return true;
+    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
+  }
+  return false;
+}
 
 // Those that would do: nobody means an angle who writes a temperature.
 std::vector<std::string> common_units_of(const SiUnit& expected) {
   std::vector<std::string> fitting;
-  for (std::string_view rest = expected.unit; !rest.empty();) {
-    const std::string_view one = rest.substr(0, rest.find('|'));
-    const Unit* si = known_unit(one);
-    for (const char* common : kCommonUnits)
-      if (const Unit* unit = known_unit(common); si != nullptr && unit != nullptr && unit->powers == si->powers)
-        fitting.push_back(common);
-    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
-  }
+  for (const char* common : kCommonUnits)
+    if (const Unit* unit = known_unit(common); unit != nullptr && is_of(*unit, expected)) fitting.push_back(common);
   return fitting;
 }
 
@@ -231,6 +241,16 @@ std::string unit_as_written(std::string_view text) {
   std::string_view rest = trimmed(text);
   double number = 0.0;
   return take_number(rest, number) ? std::string(trimmed(rest)) : "";
+}
+
+std::vector<std::string> common_units(const SiUnit& of, bool fitting) {
+  std::vector<std::string> found;
+  const auto look_at = [&](const char* common) {
+    if (const Unit* unit = known_unit(common); unit != nullptr && is_of(*unit, of) == fitting) found.push_back(common);
+  };
+  for (const char* common : kCommonUnits) look_at(common);
+  for (const char* common : kMoreUnits) look_at(common);
+  return found;
 }
 
 double scale_of_unit(std::string_view unit, const SiUnit& expected) {

@@ -10,6 +10,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace boresight {
 
@@ -65,6 +66,9 @@ double parse_quantity(std::string_view text, const SiUnit& expected);
 
 // The unit of "NUMBER UNIT" as it is written there; "" where the text does not begin with a number.
 std::string unit_as_written(std::string_view text);
+
+// Units as people write them most often, of all dimensions: those that are of this one, or those that are not.
+std::vector<std::string> common_units(const SiUnit& of, bool fitting);
 
 // How many SI units one `unit` is: scale_of_unit("mm", kLength) = 1e-3. Throws ValueFault.
 double scale_of_unit(std::string_view unit, const SiUnit& expected);

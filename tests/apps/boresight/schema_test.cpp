@@ -10,6 +10,7 @@
 #include "boresight/io/toml_tree.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "file_corpus.hpp"
+#include "reference/sections.hpp"
 #include "schema_verdict.hpp"
 
 namespace boresight::app {
@@ -99,10 +100,39 @@ TEST(Schemas, RefuseDamagedStudies) {
                       {"seed = 1", "seed = -1"},
                       {"{ uniform = { min = 0.7, max = 0.95 } }", "{ uniform = { min = 0.7 } }"},
                       {"{ uniform = { min = 0.7, max = 0.95 } }", "{ uniforms = { min = 0.7, max = 0.95 } }"},
+                      {"{ uniform = { min = 0.7, max = 0.95 } }", "{}"},
+                      {"{ uniform = { min = 0.7, max = 0.95 } }", "{ zone = \"normal\" }"},
+                      {"{ uniform = { min = 0.7, max = 0.95 } }",
+                       "{ uniform = { min = 0.7, max = 0.95 }, normal = { mean = 0.8, sd = 0.1 } }"},
+                      {"accuracy = \"2 %\"", "accuracy = \"2 deg\""},
+                      {"accuracy = \"2 %\"", "accuracy = \"2000 %\""},
                       {"probability = 0.95", "probability = 1.5"},
                       {"[montecarlo]", "[monte_carlo]"}},
                      read);
   std::filesystem::remove_all(folder);
+}
+
+// A table of which one key stands in it, or at least some, says so to editors too; and the keys that it names are its own.
+TEST(Schemas, KnowTheTablesThatMayNotBeEmpty) {
+  const nlohmann::json study = nlohmann::json::parse(json_schema("study").dump());
+  int seen = 0;
+  for (const Section& section : sections()) {
+    if (section.file != "study" || section.path().empty()) continue;
+    const nlohmann::json& schema = study["definitions"][section.keys->name];
+    for (const std::string& name : section.keys->one_of) EXPECT_NE(section.keys->find(name), nullptr) << name;
+    if (!section.keys->one_of.empty()) {
+      EXPECT_EQ(schema["oneOf"].size(), section.keys->one_of.size()) << section.path();
+      EXPECT_FALSE(section.keys->one_of_what.empty()) << section.path();
+      ++seen;
+    }
+    if (section.keys->fewest > 0) {
+      EXPECT_EQ(schema["minProperties"], section.keys->fewest) << section.path();
+      EXPECT_FALSE(section.keys->fewest_expected.empty()) << section.path();
+      ++seen;
+    }
+  }
+  EXPECT_GE(seen, 3);  // distribution, through, columns
+  EXPECT_EQ(study["properties"]["random"]["minItems"], 1);
 }
 
 }  // namespace schema_test
