@@ -294,8 +294,8 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
   (sound ? result.notes : result.findings) = k.findings;
   if (!sound && k.findings.empty()) {
     for (const LostMotion& lost : k.lost)
-      result.findings.push_back(fmt::format("at t = {:.4g} s: {}", lost.t, lost.description));
-    if (!k.feasible) result.findings.emplace_back("the ideal motion cannot be followed to its end");
+      result.findings.push_back(fmt::format("At t = {:.4g} s: {}", lost.t, lost.description));
+    if (!k.feasible) result.findings.emplace_back("The ideal motion cannot be followed to its end");
   }
   for (std::string& sentence : unlikely_inertias(mechanism)) result.notes.push_back(std::move(sentence));
   if (sound) {

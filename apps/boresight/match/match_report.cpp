@@ -260,12 +260,18 @@ std::string search_text(const MatchingResult& result) {
   return "search of the box: " + result.global + ", descent: " + result.local;
 }
 
+// As a sentence begins.
+static std::string with_capital(std::string text) {
+  if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
+}
+
 std::string match_sentence(const MatchStudy& s) {
   const MatchingResult& r = s.result;
   if (r.design.empty() && r.interrupted) return "No design was computed before the interruption.";
   if (r.design.empty()) return "Nothing was found: no design could be computed.";
-  std::string text = fmt::format("{}: {} at {}", s.plan.objective.title(s.study.index), value_text(s, r.objective),
-                                 design_text(s.plan, r.design));
+  std::string text = fmt::format("{}: {} at {}", with_capital(s.plan.objective.title(s.study.index)),
+                                 value_text(s, r.objective), design_text(s.plan, r.design));
   if (std::isfinite(r.interval.low) && std::isfinite(r.interval.high) && r.interval.low < r.interval.high)
     text += fmt::format(" ({} to {} at {:g} % confidence)", value_text(s, r.interval.low),
                         value_text(s, r.interval.high), 100.0 * r.interval.confidence);
@@ -311,8 +317,8 @@ report::Document match_report(const MatchStudy& s) {
   if (s.result.front.size() > 1)
     document.sections.push_back(
         {.id = "front", .title = "What stability costs in accuracy", .items = {front_chart(s), front_table(s)}});
-  std::string how = search_text(s.result) + "." + (s.result.why.empty() ? "" : " " + s.result.why + ".");
-  how.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(how.front())));
+  const std::string how =
+      with_capital(search_text(s.result) + "." + (s.result.why.empty() ? "" : " " + s.result.why + "."));
   document.sections.push_back(
       {.id = "search", .title = "How it was found", .intro = how, .items = {descent_table(s), settling_chart(s)}});
   document.sections.push_back(

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <numbers>
 
 #include "boresight/io/mechanism_file.hpp"
@@ -35,6 +36,24 @@ TEST(ObjectiveText, HasTheUnitThatALimitOfTheSameMeasureIsWrittenIn) {
   plan.constraints.push_back({.measure = {.over = Over::worst}, .at_most = 3e-4, .unit = "arcsec"});
   EXPECT_EQ(written_unit(plan, Measure::index), "arcsec");
   EXPECT_EQ(objective_text(plan, turn, 0.0002094, 0.0002091), "43.19 arcsec");
+}
+
+// It stands at the head of the report, as other verbs' answers do, and on the terminal.
+TEST(MatchSentence, BeginsWithACapital) {
+  const Mechanism mechanism{read_mechanism(BORESIGHT_EXAMPLES "/3-rrcpr/3-rrcpr.toml")};
+  const Command command;
+  Study study;
+  study.index = {"boresight_error", "max"};
+  const RungChoice rung{.name = "quasistatic", .why = ""};
+  MatchingPlan plan;
+  plan.variables.emplace_back();
+  plan.variables.front().paths = {"payload.mass"};
+  plan.variables.front().si_unit = plan.variables.front().unit = "kg";
+  MatchingResult result;
+  result.design = {1.0};
+  const MatchStudy matched{command, study, mechanism, rung, plan, result, {}, ""};
+  const std::string sentence = match_sentence(matched);
+  EXPECT_TRUE(std::isupper(static_cast<unsigned char>(sentence.front()))) << sentence;
 }
 
 // 0.2 and 0.26 mrad are 41.3 and 53.6 arcsec; the limit is 50.
