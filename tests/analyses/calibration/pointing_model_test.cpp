@@ -69,7 +69,8 @@ void expect_coverage(Loss loss, int nights) {
   }
 }
 
-TEST(PointingModel, SixTermsOfFiftyStarsAreInsideTheirIntervalsAsOftenAsStated) { expect_coverage(Loss::none, 400); }
+// Three of the terms go up and down together: of 400 nights, one set in five has a share beyond two standard errors.
+TEST(PointingModel, SixTermsOfFiftyStarsAreInsideTheirIntervalsAsOftenAsStated) { expect_coverage(Loss::none, 1000); }
 
 TEST(PointingModelLong, SixTermsAreInsideTheirIntervalsWithHubersLossToo) { expect_coverage(Loss::huber, 400); }
 
