@@ -1,67 +1,21 @@
 // Matching on models whose optimum is known.
 #include "boresight_analyses/matching/matching.hpp"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight_analyses/matching/design_slopes.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
+#include "valley.hpp"
 
 namespace boresight {
 namespace matching_test {
 
-// index = 1 + (x - 3)^2 + scatter, free flight = 0.1 + 0.02 (x - 7)^2: accuracy is best at 3, stability at 7.
-class Valley final : public SampleModel {
- public:
-  explicit Valley(double shift = 0.0, double width = 0.2) : shift_(shift), width_(width) {}
-  std::string rung() const override { return "valley"; }
-  double step() const override { return 0.0; }
-  std::string leaves_out() const override { return ""; }
-  std::size_t batch() const override { return 1; }
-  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>&) const override {
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      const double x = samples[k].values[0], scatter = samples[k].values.size() > 1 ? samples[k].values[1] : 0.0;
-      outcomes[k].status = Outcome::Status::done;
-      outcomes[k].value = 1.0 + std::pow(x - 3.0 - shift_, 2) + width_ * (scatter - 0.5);
-      outcomes[k].motion = {
-          .free_flight_share = 0.1 + 0.02 * std::pow(x - 7.0, 2), .impacts_per_second = 1.0, .peak_acceleration = 1.0};
-    }
-  }
-
- private:
-  double shift_, width_;
-};
-
-MatchingPlan plan(Over over = Over::nominal) {
-  MatchingPlan p;
-  DesignVariable v;
-  v.paths = {"x"};
-  v.si_unit = "1";
-  v.from = 0.0;
-  v.to = 10.0;
-  v.starts = {0.5, 5.0, 9.5};
-  p.variables = {v};
-  p.objective.over = over;
-  p.tolerance = 1e-4;
-  p.map = 5;
-  p.front = 4;
-  if (over != Over::nominal) {
-    RandomInputs inputs;
-    RandomParameter r;
-    r.paths = {"u"};
-    r.distribution = make_uniform(0.0, 1.0);
-    inputs.parameters.push_back(r);
-    p.inputs = inputs;
-    p.samples = p.confirm = 40;
-  }
-  return p;
-}
-
 TEST(Matching, ReachesTheSameAnswerFromThreeStarts) {
   const Valley model;
-  const MatchingPlan p = plan();
+  const MatchingPlan p = valley_plan();
   DesignEvaluator evaluator(model, nullptr, nullptr, {});
   const MatchingResult r = run_matching(p, evaluator, nullptr, "", {});
   ASSERT_TRUE(r.feasible);
@@ -74,7 +28,7 @@ TEST(Matching, ReachesTheSameAnswerFromThreeStarts) {
 
 TEST(Matching, InterruptedAtAnyDesignLeavesAMapOfTheSameShape) {
   const Valley model;
-  const MatchingPlan p = plan();
+  const MatchingPlan p = valley_plan();
   bool whole = false;
   int in_map = 0;
   for (int last = 1; !whole; ++last) {
@@ -109,9 +63,9 @@ MatchingOptions with_slopes(int& asked) {
 TEST(Matching, GoesByGradientsWhereThereAreAny) {
   const Valley model;
   DesignEvaluator plain(model, nullptr, nullptr, {});
-  const MatchingResult without = run_matching(plan(), plain, nullptr, "", {});
+  const MatchingResult without = run_matching(valley_plan(), plain, nullptr, "", {});
   for (const char* local : {"auto", "mma"}) {
-    MatchingPlan p = plan();
+    MatchingPlan p = valley_plan();
     p.local = local;
     DesignEvaluator evaluator(model, nullptr, nullptr, {});
     int asked = 0;
@@ -171,7 +125,7 @@ TEST(Matching, GradientsOfTheMechanismLeadToTheOptimumThatASearchWithoutFinds) {
 
 TEST(Matching, GoesByGradientsOfALogarithmicVariable) {
   const Valley model;
-  MatchingPlan p = plan();
+  MatchingPlan p = valley_plan();
   p.variables[0].from = 0.1;
   p.variables[0].log = true;
   DesignEvaluator evaluator(model, nullptr, nullptr, {});
@@ -183,7 +137,7 @@ TEST(Matching, GoesByGradientsOfALogarithmicVariable) {
 
 TEST(Matching, GoesOnWithoutGradientsWhereTheyEndAndSaysWhy) {
   const Valley model;
-  const MatchingPlan p = plan();
+  const MatchingPlan p = valley_plan();
   DesignEvaluator evaluator(model, nullptr, nullptr, {});
   int asked = 0;
   MatchingOptions options = with_slopes(asked);
@@ -202,7 +156,7 @@ TEST(Matching, GoesOnWithoutGradientsWhereTheyEndAndSaysWhy) {
 
 TEST(Matching, KeepsAConstraintAndSaysThatItIsActive) {
   const Valley model;
-  MatchingPlan p = plan();
+  MatchingPlan p = valley_plan();
   p.constraints.push_back({{.measure = Measure::free_flight_share}, 0.18});  // 5 <= x <= 9
   DesignEvaluator evaluator(model, nullptr, nullptr, {});
   const MatchingResult r = run_matching(p, evaluator, nullptr, "", {});
@@ -213,7 +167,7 @@ TEST(Matching, KeepsAConstraintAndSaysThatItIsActive) {
 
 TEST(Matching, SaysThatNoDesignKeepsTheConstraintsAndGivesTheOneThatBreaksThemLeast) {
   const Valley model;
-  MatchingPlan p = plan();
+  MatchingPlan p = valley_plan();
   p.constraints.push_back({{.measure = Measure::free_flight_share}, 0.08});
   DesignEvaluator evaluator(model, nullptr, nullptr, {});
   const MatchingResult r = run_matching(p, evaluator, nullptr, "", {});
@@ -225,7 +179,7 @@ TEST(Matching, SaysThatNoDesignKeepsTheConstraintsAndGivesTheOneThatBreaksThemLe
 // Of a free flight of at most L the most accurate design is x = 7 - sqrt((L - 0.1) / 0.02).
 TEST(Matching, FrontHoldsTheMostAccurateDesignOfEveryLevelThatItWasAskedFor) {
   const Valley model;
-  MatchingPlan p = plan();
+  MatchingPlan p = valley_plan();
   p.front = 6;
   DesignEvaluator evaluator(model, nullptr, nullptr, {});
   const MatchingResult r = run_matching(p, evaluator, nullptr, "", {});
@@ -241,7 +195,7 @@ TEST(Matching, FrontHoldsTheMostAccurateDesignOfEveryLevelThatItWasAskedFor) {
 
 TEST(Matching, FrontHoldsDesignsBetweenTheTwoOptimaOnly) {
   const Valley model;
-  const MatchingPlan p = plan();
+  const MatchingPlan p = valley_plan();
   DesignEvaluator evaluator(model, nullptr, nullptr, {});
   const MatchingResult r = run_matching(p, evaluator, nullptr, "", {});
   ASSERT_GE(r.front.size(), 4U);
@@ -272,7 +226,7 @@ TEST(Matching, TakesABetterPlaceThatItsMapShows) {
       }
     }
   } const model;
-  MatchingPlan p = plan();
+  MatchingPlan p = valley_plan();
   p.global = "none";
   p.variables[0].starts = {0.5};
   p.map = 21;
@@ -281,157 +235,6 @@ TEST(Matching, TakesABetterPlaceThatItsMapShows) {
   const MatchingResult r = run_matching(p, evaluator, nullptr, "", {});
   EXPECT_NEAR(r.design[0], 8.0, 1e-2);
   EXPECT_NEAR(r.objective, 1.0, 1e-3);
-}
-
-TEST(Matching, AConfirmationThatAgreesLeavesTheOptimumAlone) {
-  const Valley model;
-  const MatchingPlan p = plan(Over::mean);
-  DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 40, .seed = 1});
-  DesignEvaluator confirm(model, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
-  const MatchingResult r = run_matching(p, evaluator, &confirm, "valley", {});
-  ASSERT_EQ(r.confirmation.size(), 1U);
-  EXPECT_TRUE(r.confirmation[0].agrees);
-  EXPECT_FALSE(r.confirmation[0].went_on);
-  EXPECT_LT(r.interval.low, r.objective);
-  EXPECT_GT(r.interval.high, r.objective);
-}
-
-// Sixty samples show no upper end of their 95 % quantile, and the worst of them is less than that of four hundred: neither contradicts the other.
-TEST(Matching, QuantilesAndWorstsOfFewerSamplesDoNotContradictThoseOfMore) {
-  const Valley model(0.0, 2.0), other(1.5, 2.0);
-  for (const Over over : {Over::quantile, Over::worst}) {
-    MatchingPlan p = plan(over);
-    p.map = p.front = 0;
-    p.variables[0].starts = {5.0};
-    int disagree = 0;
-    for (std::uint64_t seed = 2; seed < 12; ++seed) {
-      DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 400, .seed = 1});
-      DesignEvaluator confirm(model, &*p.inputs, nullptr, {.samples = 60, .seed = seed});
-      const MatchingResult r = run_matching(p, evaluator, &confirm, "valley", {});
-      disagree += !r.confirmation[0].agrees;
-      if (r.confirmation[0].agrees) {
-        EXPECT_NEAR(r.objective, 1.9, 0.11);
-      }
-    }
-    EXPECT_LE(disagree, 1) << over_names()[static_cast<std::size_t>(over)].name;
-    // A rung that says something else still disagrees.
-    DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 400, .seed = 1});
-    DesignEvaluator confirm(other, &*p.inputs, nullptr, {.samples = 60, .seed = 2});
-    EXPECT_FALSE(run_matching(p, evaluator, &confirm, "other", {}).confirmation[0].agrees);
-  }
-}
-
-// Fails where the scatter is in its upper tenth.
-class ValleyThatFails final : public SampleModel {
- public:
-  std::string rung() const override { return "valley"; }
-  double step() const override { return 0.0; }
-  std::string leaves_out() const override { return ""; }
-  std::size_t batch() const override { return 1; }
-  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
-                const std::atomic<bool>& stop) const override {
-    Valley().evaluate(samples, outcomes, stop);
-    for (std::size_t k = 0; k < samples.size(); ++k)
-      if (samples[k].values[1] > 0.9) outcomes[k] = {.status = Outcome::Status::failed, .message = "too much"};
-  }
-};
-
-TEST(Matching, AConfirmationWhoseRunsFailConfirmsNothingAndSaysSo) {
-  const Valley model;
-  const ValleyThatFails fails;
-  const MatchingPlan p = plan(Over::mean);
-  DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 40, .seed = 1});
-  DesignEvaluator confirm(fails, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
-  const MatchingResult r = run_matching(p, evaluator, &confirm, "exact", {});
-  ASSERT_EQ(r.confirmation.size(), 1U);
-  EXPECT_TRUE(r.feasible && r.converged);
-  EXPECT_FALSE(r.confirmed());
-  EXPECT_GT(r.confirmation[0].failed, 0U);
-  EXPECT_THAT(r.confirmation[0].sentence,
-              testing::HasSubstr(std::to_string(r.confirmation[0].failed) + " of its 40 runs failed"));
-  EXPECT_THAT(r.confirmation[0].sentence, testing::HasSubstr("the optimum is not confirmed"));
-}
-
-// The mean is sought, the worst of the samples has a limit.
-MatchingPlan plan_with_the_worst_limited(double at_most) {
-  MatchingPlan p = plan(Over::mean);
-  p.map = p.front = 0;
-  MatchingConstraint limit{.measure = p.objective, .at_most = at_most};
-  limit.measure.over = Over::worst;
-  p.constraints = {limit};
-  return p;
-}
-
-TEST(Matching, AConfirmationThatBreaksALimitNamesIt) {
-  const Valley model(0.0, 0.0), wide(0.0, 4.0);
-  const MatchingPlan p = plan_with_the_worst_limited(1.5);
-  DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 40, .seed = 1});
-  DesignEvaluator confirm(wide, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
-  const MatchingResult r = run_matching(p, evaluator, &confirm, "exact", {});
-  ASSERT_EQ(r.confirmation.size(), 1U);
-  EXPECT_FALSE(r.confirmation[0].agrees);
-  EXPECT_THAT(r.confirmation[0].sentence, testing::HasSubstr("index is "));
-  EXPECT_THAT(r.confirmation[0].sentence, testing::HasSubstr("beyond its limit there"));
-  EXPECT_FALSE(r.feasible);  // none keeps it there
-}
-
-// The worst of samples about a mean that both agree on: each rung has a value of its own.
-TEST(Matching, AConfirmationHasTheConstraintsValuesOfItsOwnRung) {
-  const Valley model(0.0, 0.0), wide(0.0, 0.01);
-  const MatchingPlan p = plan_with_the_worst_limited(20.0);
-  DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 40, .seed = 1});
-  DesignEvaluator confirm(wide, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
-  const MatchingResult agreed = run_matching(p, evaluator, &confirm, "exact", {});
-  ASSERT_TRUE(agreed.confirmation.at(0).agrees);
-  EXPECT_FALSE(agreed.on_confirming_rung);
-  EXPECT_NEAR(agreed.constraint_values.at(0), 1.0, 1e-6);
-  EXPECT_GT(agreed.confirmation[0].constraint_values.at(0), 1.004);
-  EXPECT_LT(agreed.confirmation[0].constraint_values[0], 1.006);
-
-  // Where a descent went on there, the optimum is of that rung, and so are its constraints.
-  const Valley elsewhere(1.5);
-  DesignEvaluator other(elsewhere, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
-  const MatchingResult moved = run_matching(p, evaluator, &other, "exact", {});
-  ASSERT_TRUE(moved.confirmation.at(0).went_on);
-  EXPECT_TRUE(moved.on_confirming_rung);
-  EXPECT_EQ(moved.constraint_values, moved.confirmation[0].constraint_values);
-}
-
-TEST(Matching, GoesOnOnTheRungThatDisagrees) {
-  const Valley cheap, exact(1.5);
-  const MatchingPlan p = plan(Over::mean);
-  DesignEvaluator evaluator(cheap, &*p.inputs, nullptr, {.samples = 40, .seed = 1});
-  DesignEvaluator confirm(exact, &*p.inputs, nullptr, {.samples = 40, .seed = 2});
-  const MatchingResult r = run_matching(p, evaluator, &confirm, "exact", {});
-  ASSERT_EQ(r.confirmation.size(), 1U);
-  EXPECT_FALSE(r.confirmation[0].agrees);
-  EXPECT_TRUE(r.confirmation[0].went_on);
-  EXPECT_NEAR(r.design[0], 4.5, 0.01);
-  // What is as good is so by the rung that the answer is of, and the descent that found it is no worse place than it.
-  EXPECT_LE(r.as_good_from[0], r.design[0]);
-  EXPECT_GE(r.as_good_to[0], r.design[0]);
-  EXPECT_GT(r.as_good_from[0], 3.5);
-  EXPECT_TRUE(r.descents.back().agrees);
-}
-
-TEST(DesignSlopes, AreOfNumbersOfContactsAboveZeroInOneMotionsIndexWithoutLimits) {
-  MatchingPlan p = plan();
-  p.variables[0].paths = {"clearance.F1.radial", "clearance.A1.radial"};
-  p.variables[0].from = 1e-5;
-  EXPECT_EQ(why_no_slopes(p), "");
-  const auto why_not = [&](auto change) {
-    MatchingPlan other = p;
-    change(other);
-    return why_no_slopes(other);
-  };
-  using testing::HasSubstr;
-  EXPECT_THAT(why_not([](MatchingPlan& q) { q.variables[0].paths[1] = "payload.mass"; }),
-              HasSubstr("payload.mass is none"));
-  EXPECT_THAT(why_not([](MatchingPlan& q) { q.variables[0].from = 0.0; }), HasSubstr("may be zero"));
-  EXPECT_THAT(why_not([](MatchingPlan& q) { q.objective.measure = Measure::free_flight_share; }),
-              HasSubstr("only the index"));
-  EXPECT_THAT(why_not([](MatchingPlan& q) { q.objective.over = Over::mean; }), HasSubstr("one motion"));
-  EXPECT_THAT(why_not([](MatchingPlan& q) { q.constraints.push_back({q.objective, 1.0}); }), HasSubstr("limits"));
 }
 
 }  // namespace matching_test
