@@ -4,16 +4,19 @@ namespace boresight {
 namespace {
 
 Key value_of(const char* name, const char* sentence) { return keys::value(name, "the parameter").says(sentence); }
+Key positive_value(const char* name, const char* sentence) {
+  return keys::value(name, "the parameter").above(0.0, "more than 0").says(sentence);
+}
+Key positive_number(const char* name, const char* sentence) {
+  return keys::number(name).above(0.0, "more than 0").says(sentence);
+}
 
 }  // namespace
 
 const KeyTable& normal_keys() {
-  using namespace keys;
-  static const KeyTable table_of_keys{
-      .name = "distribution.normal",
-      .says = "Normal distribution.",
-      .keys = {value_of("mean", "Mean."),
-               value("sd", "the parameter").above(0.0, "more than 0").says("Standard deviation.")}};
+  static const KeyTable table_of_keys{.name = "distribution.normal",
+                                      .says = "Normal distribution.",
+                                      .keys = {value_of("mean", "Mean."), positive_value("sd", "Standard deviation.")}};
   return table_of_keys;
 }
 
@@ -29,7 +32,7 @@ const KeyTable& lognormal_keys() {
   static const KeyTable table_of_keys{
       .name = "distribution.lognormal",
       .says = "Lognormal distribution: the logarithm is normal.",
-      .keys = {value("median", "the parameter").above(0.0, "more than 0").says("Median."),
+      .keys = {positive_value("median", "Median."),
                number("factor")
                    .above(1.0, "more than 1: 68 % lie between median / factor and median * factor")
                    .says("Geometric standard deviation: 68 % lie between median / factor and median * factor.")}};
@@ -46,13 +49,12 @@ const KeyTable& triangular_keys() {
 }
 
 const KeyTable& beta_keys() {
-  using namespace keys;
   static const KeyTable table_of_keys{
       .name = "distribution.beta",
       .says =
           "Beta distribution: density proportional to x^(alpha - 1) (1 - x)^(beta - 1), x from 0 at min to 1 at max.",
-      .keys = {number("alpha").above(0.0, "more than 0").says("Exponent at min; 1 is a finite density there."),
-               number("beta").above(0.0, "more than 0").says("Exponent at max; 1 is a finite density there."),
+      .keys = {positive_number("alpha", "Exponent at min; 1 is a finite density there."),
+               positive_number("beta", "Exponent at max; 1 is a finite density there."),
                value_of("min", "Least value."), value_of("max", "Largest value.")}};
   return table_of_keys;
 }
@@ -62,10 +64,9 @@ const KeyTable& weibull_keys() {
   static const KeyTable table_of_keys{
       .name = "distribution.weibull",
       .says = "Weibull distribution: exp(-((x - location) / scale)^shape) is the probability of more than x.",
-      .keys = {
-          number("shape").above(0.0, "more than 0").says("Shape; 1 is an exponential distribution."),
-          value("scale", "the parameter").above(0.0, "more than 0").says("Scale: 63 % lie within it above location."),
-          value("location", "the parameter").otherwise(0.0).says("Least value.")}};
+      .keys = {positive_number("shape", "Shape; 1 is an exponential distribution."),
+               positive_value("scale", "Scale: 63 % lie within it above location."),
+               value("location", "the parameter").otherwise(0.0).says("Least value.")}};
   return table_of_keys;
 }
 

@@ -28,6 +28,18 @@ parameter = "clearance.F1.friction.coefficient"
 distribution = { lognormal = { median = 0.03, factor = 1.3 } }
 )" << table;
   }
+  // The keys of [montecarlo] that these studies have, a line each.
+  static std::string fidelities(const std::string& first, const std::string& second, const std::string& budget) {
+    return "fidelities = { models = [\"" + first + "\", \"" + second + "\"], budget = \"" + budget +
+           "\", pilot = 10 }\n";
+  }
+  static std::string tail(const std::string& cheap, const std::string& budget, int pilot) {
+    return "tail = { cheap = \"" + cheap + "\", exact = \"quasistatic\", budget = \"" + budget +
+           "\", pilot = " + std::to_string(pilot) + " }\n";
+  }
+  static std::string requirement(const std::string& limit, const std::string& probability) {
+    return "requirement = { limit = \"" + limit + "\", probability = " + probability + ", confidence = 0.9 }\n";
+  }
   // A motion of 20 ms.
   Ended ask(const std::string& verb, std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments = {verb, "study.toml", "--set", "motion.duration=20ms", "--out", "out"};
@@ -58,7 +70,7 @@ TEST_F(SeveralRungsProgram, SensitivityLeavesWhatTheInterfacePromises) {
 }
 
 TEST_F(SeveralRungsProgram, FidelitiesForecastTheirGainAndAgreeWithThePilot) {
-  study("[montecarlo]\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"2 s\", pilot = 10 }\n");
+  study("[montecarlo]\n" + fidelities("perturbation", "quasistatic", "2 s"));
   const Ended ended = ask("montecarlo");
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_THAT(ended.out, AllOf(HasSubstr("forecast"), HasSubstr("unbiased for perturbation")));
@@ -79,8 +91,7 @@ TEST_F(SeveralRungsProgram, FidelitiesForecastTheirGainAndAgreeWithThePilot) {
 
 // With the times, which no comparison of two starts sees, and in the report as other warnings are.
 TEST_F(SeveralRungsProgram, SayInTheirFilesWhereMuchMoreThanTheBudgetWasSpent) {
-  study(
-      "[montecarlo]\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"0.5 s\", pilot = 10 }\n");
+  study("[montecarlo]\n" + fidelities("perturbation", "quasistatic", "0.5 s"));
   const Ended ended = ask("montecarlo");
   ASSERT_EQ(ended.status, 0) << ended.err;
   const auto fidelities = json("out/summary.json")["fidelities"];
@@ -92,7 +103,7 @@ TEST_F(SeveralRungsProgram, SayInTheirFilesWhereMuchMoreThanTheBudgetWasSpent) {
 }
 
 TEST_F(SeveralRungsProgram, TheNextCommandIsOneThatTheResultsServe) {
-  study("[montecarlo]\nfidelities = { models = [\"quasistatic\", \"envelope\"], budget = \"0.3 s\", pilot = 10 }\n");
+  study("[montecarlo]\n" + fidelities("quasistatic", "envelope", "0.3 s"));
   const Ended ended = ask("montecarlo");
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("next: boresight export out: every sample as CSV, a table for each rung"));
@@ -100,7 +111,7 @@ TEST_F(SeveralRungsProgram, TheNextCommandIsOneThatTheResultsServe) {
 }
 
 TEST_F(SeveralRungsProgram, ExportWritesATableForEachRungAndOneNumberIsOneDraw) {
-  study("[montecarlo]\nfidelities = { models = [\"quasistatic\", \"envelope\"], budget = \"0.3 s\", pilot = 10 }\n");
+  study("[montecarlo]\n" + fidelities("quasistatic", "envelope", "0.3 s"));
   ASSERT_EQ(ask("montecarlo").status, 0);
   const Ended exported = call({"export", "out", "--out", "csv"});
   ASSERT_EQ(exported.status, 0) << exported.err;
@@ -124,9 +135,7 @@ TEST_F(SeveralRungsProgram, ExportWritesATableForEachRungAndOneNumberIsOneDraw) 
 }
 
 TEST_F(SeveralRungsProgram, ExportSaysWhyATailHasNoSamples) {
-  study(
-      "[montecarlo]\nrequirement = { limit = \"0.22 mm\", probability = 0.9, confidence = 0.9 }\n"
-      "tail = { cheap = \"envelope\", exact = \"quasistatic\", budget = \"0.2 s\", pilot = 10 }\n");
+  study("[montecarlo]\n" + requirement("0.22 mm", "0.9") + tail("envelope", "0.2 s", 10));
   const Ended ended = ask("montecarlo");
   ASSERT_LE(ended.status, 1) << ended.err;
   EXPECT_THAT(ended.out, Not(HasSubstr("boresight export")));
@@ -137,10 +146,7 @@ TEST_F(SeveralRungsProgram, ExportSaysWhyATailHasNoSamples) {
 }
 
 TEST_F(SeveralRungsProgram, FidelitiesSayThatTheirBudgetDecidesHowManySamplesThereAre) {
-  study(
-      "[montecarlo]\nsamples = 400\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"2 s\", "
-      "pilot = 10 "
-      "}\n");
+  study("[montecarlo]\nsamples = 400\n" + fidelities("perturbation", "quasistatic", "2 s"));
   const Ended ended = ask("montecarlo");
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("samples = 400 is not used: the budget of fidelities decides"));
@@ -159,9 +165,7 @@ TEST_F(SeveralRungsProgram, TailSaysHowRareTheExcessIsAndAnswersByIt) {
   const double truth = (beyond(2.0) - beyond(5.0)) / (1.0 - 2.0 * beyond(5.0));
   for (const auto& [probability, by_samples] : {std::pair{"0.99", false}, std::pair{"0.95", true}}) {
     std::filesystem::remove_all(folder_ / "out");
-    study("[montecarlo]\nrequirement = { limit = \"" + limit + " m\", probability = " + probability +
-          ", confidence = 0.9 }\ntail = { cheap = \"perturbation\", exact = \"quasistatic\", budget = \"0.4 s\", pilot "
-          "= 20 }\n");
+    study("[montecarlo]\n" + requirement(limit + " m", probability) + tail("perturbation", "0.4 s", 20));
     const Ended ended = ask("montecarlo");
     const auto summary = json("out/summary.json");
     EXPECT_EQ(summary["requirement"]["met_by_samples"].get<bool>(), by_samples) << ended.out << ended.err;
@@ -178,16 +182,15 @@ TEST_F(SeveralRungsProgram, TailSaysHowRareTheExcessIsAndAnswersByIt) {
 // In the first 20 ms the paper's mechanism rings: journals at rest leave out as much as the error itself. Plain samples of that rung
 // do not show a limit a little above its answers, and no more do samples that are spent more cleverly.
 TEST_F(SeveralRungsProgram, ARequirementIsMetOnlyWithWhatTheFirstRungLeavesOut) {
-  const std::string asked = "requirement = { limit = \"0.25 mm\", probability = 0.9, confidence = 0.9 }\n";
+  const std::string asked = requirement("0.25 mm", "0.9");
   for (const auto& [table, words] :
-       {std::pair{"fidelities = { models = [\"quasistatic\", \"envelope\"], budget = \"0.5 s\", pilot = 10 }\n",
+       {std::pair{fidelities("quasistatic", "envelope", "0.5 s"),
                   "the samples show the requirement, the model does not"},
-        std::pair{"tail = { cheap = \"envelope\", exact = \"quasistatic\", budget = \"0.4 s\", pilot = 20 }\n",
-                  "the samples show the requirement, the model does not"},
-        std::pair{"samples = 100\n", "The samples show it, the model does not"}}) {
+        std::pair{tail("envelope", "0.4 s", 20), "the samples show the requirement, the model does not"},
+        std::pair{std::string("samples = 100\n"), "The samples show it, the model does not"}}) {
     std::filesystem::remove_all(folder_ / "out");
     study("[montecarlo]\n" + asked + table);
-    const bool plain = std::string(table).starts_with("samples");
+    const bool plain = table.starts_with("samples");
     const Ended ended =
         ask("montecarlo", plain ? std::vector<std::string>{"--rung", "quasistatic"} : std::vector<std::string>{});
     EXPECT_EQ(ended.status, 1) << table << ended.out << ended.err;
@@ -201,9 +204,7 @@ TEST_F(SeveralRungsProgram, ARequirementIsMetOnlyWithWhatTheFirstRungLeavesOut) 
 }
 
 TEST_F(SeveralRungsProgram, FidelitiesSayThatTheirPlanLeavesTooFewSamplesToShowARequirement) {
-  study(
-      "[montecarlo]\nrequirement = { limit = \"1 mm\", probability = 0.9999, confidence = 0.9 }\n"
-      "fidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"0.5 s\", pilot = 10 }\n");
+  study("[montecarlo]\n" + requirement("1 mm", "0.9999") + fidelities("perturbation", "quasistatic", "0.5 s"));
   const Ended ended = ask("montecarlo");
   EXPECT_EQ(ended.status, 1) << ended.err;
   EXPECT_THAT(ended.out, AllOf(HasSubstr("too few to show the requirement, which takes 23025"),
@@ -211,9 +212,7 @@ TEST_F(SeveralRungsProgram, FidelitiesSayThatTheirPlanLeavesTooFewSamplesToShowA
 }
 
 TEST_F(SeveralRungsProgram, FidelitiesSayTheirMeanInTheUnitOfTheLimit) {
-  study(
-      "[montecarlo]\nrequirement = { limit = \"900 um\", probability = 0.9, confidence = 0.9 }\n"
-      "fidelities = { models = [\"quasistatic\", \"envelope\"], budget = \"0.3 s\", pilot = 10 }\n");
+  study("[montecarlo]\n" + requirement("900 um", "0.9") + fidelities("quasistatic", "envelope", "0.3 s"));
   const Ended ended = ask("montecarlo");
   ASSERT_LE(ended.status, 1) << ended.err;
   EXPECT_THAT(ended.out, testing::ContainsRegex("Mean [0-9.]+ um"));
@@ -221,9 +220,7 @@ TEST_F(SeveralRungsProgram, FidelitiesSayTheirMeanInTheUnitOfTheLimit) {
 
 // The budget is divided by what samples are counted at: once more, and resumed, the same plan and the same numbers.
 TEST_F(SeveralRungsProgram, FidelitiesAndTailGiveTheSameNumbersAgain) {
-  study(
-      "[montecarlo]\nrequirement = { limit = \"0.3 mm\", probability = 0.9, confidence = 0.9 }\n"
-      "fidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"0.5 s\", pilot = 10 }\n");
+  study("[montecarlo]\n" + requirement("0.3 mm", "0.9") + fidelities("perturbation", "quasistatic", "0.5 s"));
   const auto answers = [&](const std::string& part) {
     auto summary = json("out/summary.json");
     for (auto& rung : summary[part]["rungs"]) rung.erase("cpu_seconds_per_sample");
@@ -241,9 +238,7 @@ TEST_F(SeveralRungsProgram, FidelitiesAndTailGiveTheSameNumbersAgain) {
   EXPECT_EQ(answers("fidelities"), first);
   std::filesystem::remove_all(folder_ / "out");
 
-  study(
-      "[montecarlo]\nrequirement = { limit = \"0.3 mm\", probability = 0.99, confidence = 0.9 }\n"
-      "tail = { cheap = \"perturbation\", exact = \"quasistatic\", budget = \"0.2 s\", pilot = 10 }\n");
+  study("[montecarlo]\n" + requirement("0.3 mm", "0.99") + tail("perturbation", "0.2 s", 10));
   ask("montecarlo");
   const auto tail = answers("tail");
   std::filesystem::remove_all(folder_ / "out");
@@ -276,7 +271,7 @@ TEST_F(SeveralRungsProgram, ContradictionsAreRefusedWithTheirLine) {
 }
 
 TEST_F(SeveralRungsProgram, ARungBesideThoseThatTheStudyNamesIsRefused) {
-  study("[montecarlo]\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"2 s\", pilot = 10 }\n");
+  study("[montecarlo]\n" + fidelities("perturbation", "quasistatic", "2 s"));
   const Ended ended = ask("montecarlo", {"--rung", "multibody"});
   EXPECT_EQ(ended.status, 2);
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;

@@ -12,9 +12,18 @@ namespace passing_rest_test {
 
 using testing::HasSubstr;
 
-std::string bearing(const char* joint, const char* journal, const char* axial) {
-  return std::string("[[clearance]]\njoint = \"") + joint + "\"\njournal = \"" + journal +
-         "\"\nradial = \"0.03 mm\"\naxial = \"" + axial + R"toml("
+std::string point_at(const char* x) { return std::string("[\"") + x + "\", \"0 mm\", \"0 mm\"]\n"; }
+
+std::string body(const std::string& name, const char* x) {
+  return "[[body]]\nname = \"" + name + "\"\nmass = \"1 kg\"\ncenter_of_mass = " + point_at(x) +
+         "inertia = [\"1e-3 kg m^2\", \"1e-3 kg m^2\", \"1e-3 kg m^2\"]\n";
+}
+
+std::string bearing(const std::string& name, const std::string& sleeve, const std::string& journal, const char* x,
+                    const std::string& axial) {
+  return "[[joint]]\nname = \"" + name + "\"\ntype = \"revolute\"\nconnects = [\"" + sleeve + "\", \"" + journal +
+         "\"]\npoint = " + point_at(x) + "axis = [1, 0, 0]\ndriven = true\n[[clearance]]\njoint = \"" + name +
+         "\"\njournal = \"" + journal + "\"\nradial = \"0.03 mm\"\naxial = \"" + axial + R"toml("
 journal_radius = "8 mm"
 cap_radius = "12 mm"
 sleeve_length = "60 mm"
@@ -22,44 +31,20 @@ contact = { law = "flores", restitution = 0.85, young = ["207 GPa", "72 GPa"], p
 )toml";
 }
 
+// Along the axis as the law says, and some newtons across it.
+std::string load(const std::string& on, const std::string& along, const char* x) {
+  return "[[load]]\nbody = \"" + on + "\"\nforce = [\"" + along + "\", \"0\", \"10\"]\npoint = " + point_at(x);
+}
+
 // The load of the first bearing is that of both, the load of the second one the head's alone.
 RunResult rests_under(const std::string& on_shaft, const std::string& on_head) {
-  const std::string text = R"toml(format = 1
-name = "two bearings in a row"
-gravity = ["0 m/s^2", "0 m/s^2", "0 m/s^2"]
-[[body]]
-name = "shaft"
-mass = "1 kg"
-center_of_mass = ["0 mm", "0 mm", "0 mm"]
-inertia = ["1e-3 kg m^2", "1e-3 kg m^2", "1e-3 kg m^2"]
-[[body]]
-name = "head"
-mass = "1 kg"
-center_of_mass = ["100 mm", "0 mm", "0 mm"]
-inertia = ["1e-3 kg m^2", "1e-3 kg m^2", "1e-3 kg m^2"]
-boresight = [1, 0, 0]
-[[joint]]
-name = "near"
-type = "revolute"
-connects = ["ground", "shaft"]
-point = ["0 mm", "0 mm", "0 mm"]
-axis = [1, 0, 0]
-driven = true
-[[joint]]
-name = "far"
-type = "revolute"
-connects = ["shaft", "head"]
-point = ["100 mm", "0 mm", "0 mm"]
-axis = [1, 0, 0]
-driven = true
-[motion]
-duration = "1 s"
-drives = { near = "0.01*t", far = "0.01*t" }
-)toml" + bearing("near", "shaft", "0.1 mm") +
-                           bearing("far", "head", "0.06 mm") + "[[load]]\nbody = \"shaft\"\nforce = [\"" + on_shaft +
-                           "\", \"0\", \"10\"]\npoint = [\"0 mm\", \"0 mm\", \"0 mm\"]\n" +
-                           "[[load]]\nbody = \"head\"\nforce = [\"" + on_head +
-                           "\", \"0\", \"10\"]\npoint = [\"100 mm\", \"0 mm\", \"0 mm\"]\n";
+  const std::string text =
+      "format = 1\nname = \"two bearings in a row\"\n"
+      "gravity = [\"0 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\n" +
+      body("shaft", "0 mm") + body("head", "100 mm") + "boresight = [1, 0, 0]\n" +
+      bearing("near", "ground", "shaft", "0 mm", "0.1 mm") + bearing("far", "shaft", "head", "100 mm", "0.06 mm") +
+      "[motion]\nduration = \"1 s\"\ndrives = { near = \"0.01*t\", far = \"0.01*t\" }\n" +
+      load("shaft", on_shaft, "0 mm") + load("head", on_head, "100 mm");
   const auto mechanism = std::make_shared<const Mechanism>(read_mechanism_text(text, "bearings.toml"));
   return make_rests(mechanism)->run(mechanism->parameters(), {});
 }
