@@ -132,7 +132,7 @@ FidelityStudy run_fidelity_study(const StudyRun& run, const MonteCarloPlan& plan
   study.steps = run.steps_of_scatter({.inputs = plan.inputs,
                                       .statistic = statistic,
                                       .runs = static_cast<std::uint64_t>(study.plan.samples[0]),
-                                      .lanes = levels[0].model->batch() > 1},
+                                      .lanes = true},
                                      top, asked.models.front(), levels[0].store.get());
   study.interrupted = study.steps.interrupted;
   study.model_error = study.rung_error + (std::isfinite(study.steps.relative) ? study.steps.relative : 0.0);
