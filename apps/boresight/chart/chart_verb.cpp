@@ -160,10 +160,9 @@ class ChartVerb : public Verb {
   }
   std::vector<std::string> unused_options() const override { return {"--rung"}; }
   void declare_options(CLI::App& app) override {
-    declare_option(
-        app, "--index", index_,
-        "of a mechanism, whose file names none: position_error.max, which it is otherwise, boresight_error.rms, ...",
-        "QUANTITY.STATISTIC");
+    declare_option(app, "--index", index_,
+                   "of a mechanism, whose file names none: such as boresight_error.rms; otherwise position_error.max",
+                   "QUANTITY.STATISTIC");
     declare_option(app, "--start", start_, "the index leaves out what the motion does before; a study says so itself",
                    "TIME");
     declare_option_with_default(app, "--time", time_, "of CPU in all; ways for which none is left are named", "TIME");

@@ -54,7 +54,9 @@ void MotionOptions::declare(CLI::App& app, bool with_poses) {
 void MotionOptions::declare_model(CLI::App& app) {
   app.add_option("--step", step, "step of the integration; otherwise the rung's own choice")->type_name("TIME");
   app.add_option("--integrator", integrator,
-                 "rk4, dopri5, rosenbrock or (multibody) generalized-alpha; otherwise the rung's own, rk4")
+                 "rk4, dopri5, rosenbrock or (multibody) generalized-alpha; otherwise the rung's own choice: rk4, or "
+                 "rosenbrock "
+                 "where rk4's steps do not follow the motion")
       ->type_name("NAME");
   app.add_option("--tolerance", tolerance,
                  "of error control (any integrator but rk4; rosenbrock unless --integrator names another): error of "

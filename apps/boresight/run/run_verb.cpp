@@ -168,7 +168,7 @@ class RunVerb : public Verb {
         "what the steps do to the indices, by further runs: auto where these take less than 10 s of CPU, on, off",
         "WHEN");
     declare_option(app, "--index", index_,
-                   "what --accuracy is about: position_error.max, which it is otherwise, boresight_error.rms, ...",
+                   "the index that --accuracy is about, such as boresight_error.rms; otherwise position_error.max",
                    "QUANTITY.STATISTIC");
   }
 

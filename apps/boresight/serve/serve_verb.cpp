@@ -35,7 +35,8 @@ class ServeVerb : public Verb {
         ->type_name("PATH")
         ->allow_extra_args(false)
         ->take_all();
-    declare_option(app, "--index", index_, "of a mechanism: the number that is told; otherwise position_error.max",
+    declare_option(app, "--index", index_,
+                   "of a mechanism: the index that it answers with; otherwise position_error.max",
                    "QUANTITY.STATISTIC");
     declare_option_with_default(app, "--address", address_,
                                 "where it listens; the default is open to this machine alone", "ADDRESS");

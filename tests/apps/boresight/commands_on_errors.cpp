@@ -112,7 +112,7 @@ std::vector<TableCommand> commands_on_errors() {
            }},
       {.text = "boresight calibrate examples/altaz-gimbal/calibrate.toml --make-data \"1 arcsec\" --make-samples 50 "
                "--make-seed 3"},
-      // "The longest exposure is not met"; "They agree"
+      // "The limit of the longest exposure is not met"; "They agree"
       {.text = "boresight budget examples/altaz-gimbal/jitter.toml --set motion.drives.azimuth=0.3 --set "
                "motion.drives.elevation=pi/4",
        .claims =
