@@ -49,7 +49,7 @@ std::vector<std::string> range_warnings(const Mechanism& mechanism, const Parame
 
 void add_range_warnings(const Mechanism& mechanism, const Parameters& parameters, RunResult& result) {
   std::vector<double> loads;
-  for (const ContactSummary& contact : result.contact) loads.push_back(contact.max_force);
+  for (const ContactSummary& contact : result.contact) loads.push_back(contact.max_radial_force);
   for (std::string& one : range_warnings(mechanism, parameters, loads)) result.warnings.push_back(std::move(one));
 }
 

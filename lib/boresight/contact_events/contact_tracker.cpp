@@ -191,7 +191,9 @@ void ContactTracker::observe_forces(const PlayWrench<double>& wrench) {
     const int k = static_cast<int>(place);
     if (!memory_.touching[k]) continue;
     open_[k].max_force = std::max(open_[k].max_force, contact[k].normal_force);
-    if (counts(t_)) summary_.max_force = std::max(summary_.max_force, contact[k].normal_force);
+    if (!counts(t_)) continue;
+    summary_.max_force = std::max(summary_.max_force, contact[k].normal_force);
+    if (!is_axial(place)) summary_.max_radial_force = std::max(summary_.max_radial_force, contact[k].normal_force);
   }
 }
 

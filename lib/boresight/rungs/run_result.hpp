@@ -31,6 +31,7 @@ struct ContactSummary {
   std::int64_t impacts = 0;       // contacts begun; not those that a motion starts with
   double max_penetration = 0.0;   // [m]
   double max_force = 0.0;         // of one contact [N]
+  double max_radial_force = 0.0;  // of one contact across the joint's axis, where the law that the file names acts [N]
   double max_load = 0.0;          // resultant of all its contacts, with their friction [N]
   double max_impact_speed = 0.0;  // [m/s]
   double validity_speed = 0.0;    // bound of Eq. 26 for this pair [m/s]

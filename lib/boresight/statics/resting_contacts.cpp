@@ -22,8 +22,11 @@ void RestingContacts::note(double t, const std::vector<RestingPlay>& rest) {
     ContactSummary& of = summary_[c];
     of.max_load = std::max(of.max_load, rest[c].carried);
     of.max_penetration = std::max(of.max_penetration, rest[c].penetration());
-    for (const ContactState<double>& contact : rest[c].contact)
-      of.max_force = std::max(of.max_force, contact.normal_force);
+    for (int k = 0; k < kContactPlaces; ++k) {
+      const double force = rest[c].contact[k].normal_force;
+      of.max_force = std::max(of.max_force, force);
+      if (!is_axial(static_cast<ContactPlace>(k))) of.max_radial_force = std::max(of.max_radial_force, force);
+    }
     // Half of a step in which a contact begins or ends.
     const bool touches = rest[c].normal_force() > 0.0;
     touching_[c] += 0.5 * (t - last_) * ((noted_ && touches_[c]) + touches);

@@ -58,6 +58,63 @@ journal = "table"
   EXPECT_NEAR(contact["typical_penetration"].get<double>(), load / stiffness, 1e-6 * load / stiffness);
 }
 
+// 589 N on the end face, which takes nothing from the law that the file names, and 1 N on the bore, which does.
+TEST_F(CheckProgram, AndRunHoldALawAgainstTheLoadOnTheBore) {
+  const auto rotor = [](const std::string& law) {
+    return R"toml(format = 1
+name = "rotor"
+gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
+[[body]]
+name = "rotor"
+mass = "60 kg"
+center_of_mass = ["0 m", "0 m", "0.1 m"]
+inertia = ["0.5 kg m^2", "0.5 kg m^2", "0.4 kg m^2"]
+boresight = [1, 0, 0]
+[[joint]]
+name = "A"
+type = "revolute"
+connects = ["ground", "rotor"]
+point = ["0 m", "0 m", "0 m"]
+axis = [0, 0, 1]
+driven = true
+[motion]
+duration = "0.1 s"
+drives = { A = "0.3*t^3" }
+[[clearance]]
+joint = "A"
+journal = "rotor"
+radial = "0.01 mm"
+axial = "0.02 mm"
+journal_radius = "6 mm"
+cap_radius = "12 mm"
+sleeve_length = "20 mm"
+[clearance.contact]
+restitution = 0.9
+young = ["72 GPa", "72 GPa"]
+poisson = [0.33, 0.33]
+law = ")toml" +
+           law + R"toml("
+[clearance.friction]
+law = "none"
+[[load]]
+body = "rotor"
+point = ["0 m", "0 m", "0.1 m"]
+force = ["1", "0", "0"]
+)toml";
+  };
+  for (const auto& [law, fits] : {std::pair<const char*, bool>{"flores", true}, {"liu", false}}) {
+    write("rotor.toml", rotor(law));
+    const std::string check = call({"check", "rotor.toml", "--out", std::string("check-") + law}).out;
+    EXPECT_EQ(check.find("used outside of its range") == std::string::npos, fits) << check;
+    for (const char* rung : {"quasistatic", "perturbation", "multibody"}) {
+      const std::string folder = std::string(rung) + "-" + law;
+      const Ended run = call({"run", "rotor.toml", "--rung", rung, "--step-error", "off", "--out", folder});
+      ASSERT_EQ(run.status, 0) << run.err;
+      EXPECT_EQ(run.out.find("used outside of its range") == std::string::npos, fits) << rung << ": " << run.out;
+    }
+  }
+}
+
 // A spring of 1e8 N/m on 0.1 kg: 31,600 rad/s, of which RK4 follows steps of 88 us.
 TEST_F(CheckProgram, NamesSpringsThatAskForShorterStepsThanContactsDo) {
   write("stiff.toml", R"toml(format = 1
