@@ -24,7 +24,8 @@ std::vector<std::string> example_files() {
   std::vector<std::string> texts;
   for (const char* name :
        {"/3-rrcpr/3-rrcpr.toml", "/crank-slider/crank-slider.toml", "/four-bar/four-bar.toml",
-        "/../tests/apps/boresight/every_key/two_bearings.toml", "/../tests/apps/boresight/every_key/pad.toml"}) {
+        "/../tests/apps/boresight/every_key/two_bearings.toml", "/../tests/apps/boresight/every_key/pad.toml",
+        "/../tests/apps/boresight/every_key/rectangular_pad.toml"}) {
     std::ifstream in(std::string(BORESIGHT_EXAMPLES) + name, std::ios::binary);
     texts.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
   }

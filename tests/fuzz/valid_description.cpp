@@ -72,7 +72,11 @@ std::string fault_of_clearance(const MechanismDescription& m, const ClearanceDes
   if (slider && !(joint.type == JointType::prismatic && 2.0 * p.width_gap < p.width && 2.0 * p.height_gap < p.height &&
                   p.length > 0.0 && std::abs(c.width_direction.norm() - 1.0) < 1e-9))
     return "slider";
-  if (slider ? false : pad ? !(p.pad_radius > 0.0) : !(p.radial > 0.0 && p.journal_radius > 0.0)) return "radii";
+  const bool corners = c.pad == PadShape::rectangular;
+  if (corners && !(pad && p.width > 0.0 && p.length > 0.0 && std::abs(c.width_direction.norm() - 1.0) < 1e-9))
+    return "rectangular pad";
+  if (slider || corners ? false : pad ? !(p.pad_radius > 0.0) : !(p.radial > 0.0 && p.journal_radius > 0.0))
+    return "radii";
   if (joint.type == JointType::revolute && !(p.cap_radius > p.journal_radius + p.radial && p.sleeve_length > 0.0))
     return "caps";
   if (c.axes == JournalAxes::free && !pad && !ball && !slider && p.sleeve_length <= 0.0) return "sleeve length";

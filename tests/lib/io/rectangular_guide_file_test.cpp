@@ -76,7 +76,7 @@ TEST(RectangularGuideInAFile, RefusesWhatItHasNot) {
   EXPECT_EQ(
       refusal(std::string(kSizes) + "radial = \"0.1 mm\"\njournal_radius = \"9 mm\"\n"),
       "f.toml:21: clearance.rail.width: found it on \"rail\", which has no rectangular guide, expected it only on a "
-      "prismatic joint with guide = \"rectangular\"");
+      "prismatic joint with guide = \"rectangular\", or on a planar one with a rectangular pad");
   EXPECT_EQ(
       refusal(all, "cylindrical"),
       "f.toml:21: clearance.rail.guide: found it on \"rail\", a cylindrical joint, expected it only on a prismatic "

@@ -40,7 +40,9 @@ inline const std::vector<PlayKind>& play_kinds() {
        "radial = \"GAP\"\naxial = \"GAP\"\njournal_radius = \"8 mm\"\ncap_radius = \"12 mm\"\ncross_mass = \"0.5 kg\"\n"
        "cross_radius = \"30 mm\"\n",
        kLength},
-      {"planar", "planar", false, "axial = \"GAP\"\npad_radius = \"30 mm\"\n", ""}};
+      {"planar", "planar", false, "axial = \"GAP\"\npad_radius = \"30 mm\"\n", ""},
+      {"planar_rectangular", "planar", false,
+       "axial = \"GAP\"\nwidth = \"50 mm\"\nlength = \"70 mm\"\nwidth_direction = [0.8, 0.6, 0]\n", ""}};
   return kinds;
 }
 
