@@ -163,12 +163,13 @@ int run(int argc, char** argv) {
   if (options.program.find('/') != std::string::npos)
     options.program = std::filesystem::absolute(options.program).string();
 
-  const auto dressed = [errors, plays](std::string text) {
-    if (plays) text = with_plays(text);
+  const auto dressed = [errors, plays](std::string text, bool corners = false) {
+    if (plays) text = with_plays(text, corners);
     return errors ? with_errors(text) : text;
   };
   if (!write.empty()) {
-    std::ofstream(write[1]) << dressed(generate(std::stoull(write[0])).toml());
+    std::ofstream(write[1]) << dressed(generate(std::stoull(write[0])).toml(),
+                                       std::stoull(write[0]) >= kFirstSeedWithCorners);
     return 0;
   }
   std::vector<std::function<Entry()>> scenes;
@@ -182,7 +183,7 @@ int run(int argc, char** argv) {
   for (std::uint64_t seed : seeds)
     scenes.push_back([seed, dressed] {
       const Scene scene = generate(seed);
-      return Entry{fmt::format("seed {}", seed), scene.family, dressed(scene.toml())};
+      return Entry{fmt::format("seed {}", seed), scene.family, dressed(scene.toml(), seed >= kFirstSeedWithCorners)};
     });
   KnownFaults known = known_file.empty() ? KnownFaults() : KnownFaults(known_file);
   std::string flags;  // of this call, by which a scene is made and tried again

@@ -51,7 +51,7 @@ std::string contact_of(Draw& draw, double smallest_mass, double gap, bool ball, 
 
 }  // namespace
 
-std::string with_plays(const std::string& toml) {
+std::string with_plays(const std::string& toml, bool corners) {
   const Mechanism mechanism(read_mechanism_text(toml, "scene"));
   const MechanismDescription& m = mechanism.description();
   Draw draw(seed_of_text(toml));
@@ -95,7 +95,14 @@ std::string with_plays(const std::string& toml) {
                 meters("cross_radius", s.journal * draw.between(2.0, 4.0)) + sleeve;
         break;
       default:
-        sizes = meters("axial", s.gap) + meters("pad_radius", s.journal * draw.between(1.0, 3.0));
+        if (corners && draw.chance(0.5)) {
+          const Vec3 along = turned(across(joint.axis), joint.axis, draw.between(0.0, 3.0));
+          sizes = meters("axial", s.gap) + meters("width", s.journal * draw.between(1.5, 5.0)) +
+                  meters("length", s.journal * draw.between(1.5, 5.0)) +
+                  fmt::format("width_direction = [{:.17g}, {:.17g}, {:.17g}]\n", along.x(), along.y(), along.z());
+        } else {
+          sizes = meters("axial", s.gap) + meters("pad_radius", s.journal * draw.between(1.0, 3.0));
+        }
         break;
     }
     const int journal = draw.chance(0.5) ? joint.first : joint.second;
