@@ -89,7 +89,11 @@ void DampingWatch::look(double t, const OffsetLayout& layout, const std::vector<
   if (now.rate > fastest_.rate) fastest_ = now;
 }
 
-bool DampingWatch::beyond() const { return rested_ || beyond_ > kAsARule * looks_; }
+bool DampingWatch::beyond() const { return surely_beyond(0); }
+
+bool DampingWatch::surely_beyond(long looks_left) const {
+  return rested_ || beyond_ > kAsARule * static_cast<double>(looks_ + looks_left);
+}
 
 std::string DampingWatch::warning() const {
   if (!beyond()) return "";

@@ -40,6 +40,8 @@ class DampingWatch {
   // and at two looks on end (a journal that comes to rest swings, and its damping with it): the steps then throw the journal off, and what it
   // strikes later on is damped less.
   bool beyond() const;
+  // Whether it will be, whatever that many further looks find.
+  bool surely_beyond(long looks_left) const;
   // Then a sentence; else empty.
   std::string warning() const;
 

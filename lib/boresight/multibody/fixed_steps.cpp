@@ -53,7 +53,7 @@ void record(const MultibodyMotion& run, Formulation& formulation, const VecX& y,
 
 }  // namespace
 
-RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) {
+RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step, WhereDampedBeyond where_beyond) {
   const Mechanism& mechanism = run.mechanism;
   const Parameters& parameters = run.parameters;
   const RunOptions& options = run.options;
@@ -145,6 +145,7 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
         compliance = formulation->offset_compliance();
         compliance_age = i;
         damping.look(t, layout, joints, motion, trackers, compliance);
+        if (where_beyond == WhereDampedBeyond::ends && damping.surely_beyond((steps - i) / compliance_every)) break;
       }
       const StiffestContact stiffest = stiffest_contact(layout, joints, motion, compliance);
       if (h * stiffest.angular_frequency > classical_rk4().real_limit) throw UnstableStep(mechanism, stiffest, t, h);

@@ -65,9 +65,9 @@ class Multibody final : public Rung {
                          std::min(load_time(mechanism), time_of_errors(mechanism, of_errors, parameters)));
       result = follow_by_default(
           options, own,
-          [&](const RunOptions& by_steps, double step) {
+          [&](const RunOptions& by_steps, double step, WhereDampedBeyond where_beyond) {
             RunResult stepped = naming_springs(mechanism, parameters, ideal, options.step, [&] {
-              return follow_in_fixed_steps({mechanism, parameters, by_steps, ideal, *commanded}, step);
+              return follow_in_fixed_steps({mechanism, parameters, by_steps, ideal, *commanded}, step, where_beyond);
             });
             if (std::string missed = errors_not_followed(mechanism, of_errors, parameters, step); !missed.empty())
               stepped.warnings.push_back(std::move(missed));

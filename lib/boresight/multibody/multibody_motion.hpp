@@ -9,6 +9,7 @@
 #include "boresight/formulations/formulation.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/rung.hpp"
+#include "boresight/stepping/default_integrator.hpp"
 
 namespace boresight {
 
@@ -31,7 +32,7 @@ struct MultibodyMotion {
 inline constexpr char kMultibody[] = "multibody";
 
 // RK4 with steps of `wanted_step` [s], shortened evenly so that whole steps reach the end. Throws UnstableStep.
-RunResult follow_in_fixed_steps(const MultibodyMotion& motion, double wanted_step);
+RunResult follow_in_fixed_steps(const MultibodyMotion& motion, double wanted_step, WhereDampedBeyond where_beyond);
 // By an integrator that locates its contacts. Throws ComputationError.
 RunResult follow_locating_contacts(const MultibodyMotion& motion, const std::string& integrator);
 

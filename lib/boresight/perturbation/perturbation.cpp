@@ -84,9 +84,9 @@ class Perturbation final : public SceneRung {
         options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal(), of_loads);
     return follow_by_default(
         options, own,
-        [&](const RunOptions& by_steps, double step) {
+        [&](const RunOptions& by_steps, double step, WhereDampedBeyond where_beyond) {
           return naming_springs(mechanism(), parameters, prepared.ideal(), options.step, [&] {
-            return integrate(tables, prepared, standing, parameters, by_steps, step, largest);
+            return integrate(tables, prepared, standing, parameters, by_steps, step, where_beyond, largest);
           });
         },
         [&](const RunOptions& located) {
@@ -97,7 +97,7 @@ class Perturbation final : public SceneRung {
 
   RunResult integrate(const std::shared_ptr<const SceneTables>& tables, const PreparedScene& prepared,
                       const StandingDisplacement& standing, const Parameters& parameters, const RunOptions& options,
-                      double wanted, LargestDeviations& largest) const {
+                      double wanted, WhereDampedBeyond where_beyond, LargestDeviations& largest) const {
     const Mechanism& mechanism = this->mechanism();
     PerturbationSystem system(mechanism, parameters, tables, options.events, options.start);
     const OffsetLayout& offsets = prepared.scene().offsets();
@@ -135,8 +135,10 @@ class Perturbation final : public SceneRung {
           const StiffestContact stiffest = stiffest_contact(offsets, system.joints(), system.motion(), compliance);
           if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
         }
-        if (i % damping_every == 0)
+        if (i % damping_every == 0) {
           damping.look(t, offsets, system.joints(), system.motion(), system.trackers(), compliance);
+          if (where_beyond == WhereDampedBeyond::ends && damping.surely_beyond((steps - i) / damping_every)) break;
+        }
       }
       record(prepared, standing, t, y, method.first_slope(), system, looked_at, recorder, largest);
       if (i == steps) break;

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 #include "boresight/formulations/singular_pose.hpp"
@@ -26,21 +25,24 @@ inline RunOptions growing(RunOptions options, double& reached) {
   return options;
 }
 
-// own: of rk4 [s]. by_steps(options, step): rk4. located(options): the integrator that the options name.
+// What steps do from when it is sure that a contact is damped faster than they follow: go on to the end of the motion, or end there, as the
+// motion is followed anew and nothing of it is kept.
+enum class WhereDampedBeyond { goes_on, ends };
+
+// own: of rk4 [s]. by_steps(options, step, where_beyond): rk4. located(options): the integrator that the options name.
 template <typename Steps, typename Located>
 RunResult follow_by_default(const RunOptions& asked, double own, Steps&& by_steps, Located&& located) {
   double reached = 0.0;
   const RunOptions options = growing(asked, reached);
   const auto stable = [&] {
     return with_stable_step(options.step, own, options.sample_spacing,
-                            [&](double step) { return by_steps(options, step); });
+                            [&](double step) { return by_steps(options, step, WhereDampedBeyond::goes_on); });
   };
   if (!options.integrator.empty() || options.step > 0.0) return stable();
-  std::optional<RunResult> first;
   const char* why = "the motion blows up at its own step";
   try {
-    first = by_steps(options, step_on_grid(own, options.sample_spacing));
-    if (!first->damped_beyond_steps || first->interrupted) return *std::move(first);
+    RunResult first = by_steps(options, step_on_grid(own, options.sample_spacing), WhereDampedBeyond::ends);
+    if (!first.damped_beyond_steps || first.interrupted) return first;
     why = "a contact is damped faster than its own step follows";
   } catch (const UnstableStep&) {
   } catch (const SingularPose&) {  // what a motion that blows up may meet on its way
@@ -54,7 +56,7 @@ RunResult follow_by_default(const RunOptions& asked, double own, Steps&& by_step
     return followed;
   } catch (const ComputationError&) {
   }
-  return first ? *std::move(first) : stable();
+  return stable();
 }
 
 }  // namespace boresight
