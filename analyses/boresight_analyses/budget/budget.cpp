@@ -81,8 +81,7 @@ class Maker {
         for (std::size_t r = 0; r < plan_.requirements.size(); ++r)
           if (plan_.requirements[r].index == index && plan_.requirements[r].axis == axis &&
               plan_.requirements[r].exposure == 0.0)
-            b.requirements[r] =
-                answer(r, sizes, table(b, index, plan_.requirements[r].interpretation), values, plan_.windows);
+            b.requirements[r] = answer(r, sizes, table(b, index, plan_.requirements[r].interpretation), plan_.windows);
         if (b.headline.index == index && b.headline.axis == axis)
           for (const std::vector<Vec3>& v : values) b.headline_sizes.push_back(sizes_of(v, {axis, axes_.count()}));
       }
@@ -94,7 +93,7 @@ class Maker {
       const Values values = values_of(totals_, asked.index, windows);
       const std::vector<ClassicalTable> tables = classical_tables(plan_, classical_parts(), asked.index, windows);
       b.requirements[r] = answer(r, in_time(values, asked.axis, failed_),
-                                 tables[static_cast<std::size_t>(asked.interpretation)], values, windows);
+                                 tables[static_cast<std::size_t>(asked.interpretation)], windows);
     }
     b.parts = sub_budgets(
         plan_, ensemble_, of_steps_, axes_, table(b, b.headline.index, b.headline.interpretation).lines,
@@ -149,8 +148,8 @@ class Maker {
 
   ClassicalParts classical_parts() const { return {axes_, joints_, kinds_, alone_, *groups_}; }
 
-  // values: of the asked index, of which `sizes` are those along the asked axis.
-  RequirementAnswer answer(std::size_t r, const EnsembleInTime& sizes, const ClassicalTable& t, const Values& values,
+  // sizes: of the asked index along the asked axis.
+  RequirementAnswer answer(std::size_t r, const EnsembleInTime& sizes, const ClassicalTable& t,
                            const Windows& windows) const {
     const BudgetRequirement& asked = plan_.requirements[r];
     const Judgement judgement =
@@ -163,17 +162,15 @@ class Maker {
                              .compliance = judged(sizes),
                              .judgement = judgement};
     answer.met_by_members = answer.compliance.met;
-    std::vector<std::vector<double>> raised;
+    std::vector<double> missed;
+    const AxisOf axis(asked.axis, axes_.count());
     for (std::size_t m = 0; m < members_.size(); ++m) {
       const double error = of_steps_ + ensemble_.model_error(members_[m]);
       answer.model_error = std::max(answer.model_error, error);
-      const AxisOf axis(asked.axis, axes_.count());
-      raised.push_back(sizes_of(values[m], axis));
-      const double missed = missed_of(ensemble_, members_[m], error, asked.index, windows, axis);
-      for (double& size : raised.back()) size += missed;
+      missed.push_back(missed_of(ensemble_, members_[m], error, asked.index, windows, axis));
     }
     if (!(answer.model_error > 0.0)) return answer;
-    answer.within_error = judged(EnsembleInTime(std::move(raised), failed_));
+    answer.within_error = judged(sizes.raised(missed));
     answer.compliance.met = answer.met_by_members && answer.within_error.met;
     return answer;
   }

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "boresight_analyses/budget/value_of_rank.hpp"
 #include "boresight_analyses/statistics/betting_mean.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
 #include "boresight_analyses/statistics/bounded_mean.hpp"
@@ -61,6 +62,22 @@ EnsembleInTime::EnsembleInTime(std::vector<std::vector<double>> sizes, std::int6
     std::sort(member.begin(), member.end());
     maxima_.push_back(member.back());
   }
+}
+
+EnsembleInTime EnsembleInTime::raised(const std::vector<double>& by) const {
+  if (by.size() != sizes_.size()) throw std::invalid_argument("as many rises as members");
+  EnsembleInTime out;
+  out.sizes_ = sizes_;
+  out.failed_ = failed_;
+  for (std::size_t k = 0; k < by.size(); ++k) {
+    for (double& size : out.sizes_[k]) size += by[k];
+    out.maxima_.push_back(out.sizes_[k].back());
+  }
+  return out;
+}
+
+double EnsembleInTime::pooled_quantile(double share) const {
+  return value_of_rank(sizes_, rank_of(sizes_.size() * sizes_.front().size(), share));
 }
 
 const EnsembleInTime::Pool& EnsembleInTime::pool() const {
@@ -150,15 +167,6 @@ ReportedInterval EnsembleInTime::level(Interpretation interpretation, double pro
   const double seen = static_cast<double>(members()) / all;
   const double high = mean_that_shows(probability, all, side) / seen;                   // failed ones above
   const double low = (mean_that_denies(probability, all, side) - (1.0 - seen)) / seen;  // failed ones below
-  std::vector<double> all_values;
-  all_values.reserve(sizes_.size() * sizes_.front().size());
-  for (const std::vector<double>& member : sizes_) all_values.insert(all_values.end(), member.begin(), member.end());
-  // A selection takes a tenth of what it takes to put them all in order.
-  const auto pooled_quantile = [&](double share) {
-    const auto nth = all_values.begin() + static_cast<std::ptrdiff_t>(rank_of(all_values.size(), share));
-    std::nth_element(all_values.begin(), nth, all_values.end());
-    return *nth;
-  };
   return {pooled_quantile(probability),
           low > 0.0 ? pooled_quantile(low) : 0.0,
           high <= 1.0 ? pooled_quantile(high) : kInfinity,
@@ -179,14 +187,7 @@ MemberInterval EnsembleInTime::about_level(Interpretation interpretation, double
   // Woodruff's interval: the levels at the shares that the level's own share may be (J. Am. Stat. Assoc. 47, 1952).
   const auto n = static_cast<double>(members());
   if (members() < static_cast<std::int64_t>(MemberBootstrap::kFewest)) return {};
-  std::vector<double> all;
-  for (const std::vector<double>& member : sizes_) all.insert(all.end(), member.begin(), member.end());
-  const auto at = [&](double share) {
-    const auto nth = all.begin() + static_cast<std::ptrdiff_t>(rank_of(all.size(), share));
-    std::nth_element(all.begin(), nth, all.end());
-    return *nth;
-  };
-  const double value = at(probability);
+  const double value = pooled_quantile(probability);
   double sum = 0.0, squares = 0.0;
   for (const std::vector<double>& member : sizes_) {
     const double share = share_at_or_below(member, value);
@@ -196,8 +197,8 @@ MemberInterval EnsembleInTime::about_level(Interpretation interpretation, double
   const double mean = sum / n, variance = std::max(0.0, squares / n - mean * mean) / (n - 1.0);
   const double reach =
       quantile(complement(boost::math::students_t(n - 1.0), 0.5 * (1.0 - confidence))) * std::sqrt(variance);
-  return {probability > reach ? at(probability - reach) : 0.0,
-          probability + reach < 1.0 ? at(probability + reach) : kInfinity};
+  return {probability > reach ? pooled_quantile(probability - reach) : 0.0,
+          probability + reach < 1.0 ? pooled_quantile(probability + reach) : kInfinity};
 }
 
 double EnsembleInTime::share_of_members_shown(std::int64_t hits, const Judgement& judgement) const {

@@ -40,6 +40,9 @@ class EnsembleInTime {
   // without any.
   explicit EnsembleInTime(std::vector<std::vector<double>> sizes, std::int64_t failed = 0);
 
+  // The same with all sizes of member k larger by by[k], no less than zero: what is in order stays so.
+  EnsembleInTime raised(const std::vector<double>& by) const;
+
   std::int64_t members() const { return static_cast<std::int64_t>(maxima_.size()); }  // with values
   std::int64_t failed() const { return failed_; }
 
@@ -69,6 +72,10 @@ class EnsembleInTime {
                         double leave_out = 0.0) const;
 
  private:
+  EnsembleInTime() = default;
+  // Of the least value of all members together with this share of them at or below it.
+  double pooled_quantile(double share) const;
+
   // The values of all members together, ascending, and the member of each, for bootstraps of the mixed interpretation: put in order when
   // first asked for, which takes longer than all else here.
   struct Pool {
@@ -82,7 +89,7 @@ class EnsembleInTime {
 
   std::vector<std::vector<double>> sizes_;  // each ascending
   std::vector<double> maxima_;
-  std::int64_t failed_;
+  std::int64_t failed_ = 0;
   std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
 };
 

@@ -94,7 +94,8 @@ class Tree {
     if (held.mechanism) b.holds.emplace_back(kMechanism);
     for (const std::size_t i : held.contributors) b.holds.push_back(plan_.contributors[i].name);
     const AxisOf axis(headline_.axis, axes_.count());
-    std::vector<std::vector<double>> sizes, raised;
+    std::vector<std::vector<double>> sizes;
+    std::vector<double> missed;
     std::int64_t failed = 0;
     for (std::uint64_t member = 0; member < plan_.members; ++member) {
       const PointingHistory sum = sum_of(held, ensemble_, member);
@@ -106,9 +107,7 @@ class Tree {
       if (!held.mechanism) continue;
       const double error = of_steps_ + ensemble_.model_error(member);
       b.model_error = std::max(b.model_error, error);
-      raised.push_back(sizes.back());
-      const double missed = missed_of(ensemble_, member, error, headline_.index, plan_.windows, axis);
-      for (double& size : raised.back()) size += missed;
+      missed.push_back(missed_of(ensemble_, member, error, headline_.index, plan_.windows, axis));
     }
     const EnsembleInTime in_time(std::move(sizes), failed);
     b.judgement = judgements_.empty() ? Judgement{.confidence = headline_.confidence, .why = ""} : judgements_[p];
@@ -122,7 +121,7 @@ class Tree {
       b.compliance = judged(in_time);
       b.kept_by_members = b.compliance.met;
       if (b.model_error > 0.0) {
-        b.within_error = judged(EnsembleInTime(std::move(raised), failed));
+        b.within_error = judged(in_time.raised(missed));
         b.compliance.met = b.kept_by_members && b.within_error.met;
       }
     }

@@ -51,6 +51,31 @@ TEST(Interpretation, AFailedMemberCountsAsBad) {
   EXPECT_TRUE(std::isinf(e.level(Interpretation::mixed, 0.95, 0.9).high));
 }
 
+// What a model may be off by raises all that a member has by the same.
+TEST(Interpretation, OfRaisedMembersIsThatOfTheRaisedSizes) {
+  const CounterStream stream(7, StreamPurpose::resampling);
+  std::vector<std::vector<double>> sizes, larger;
+  std::vector<double> by;
+  for (std::uint64_t k = 0; k < 60; ++k) {
+    by.push_back(0.3 * stream.uniform(k, 999, 0));
+    sizes.emplace_back();
+    for (std::uint64_t i = 0; i < 50; ++i) sizes.back().push_back(stream.uniform(k, i, 0));
+    larger.push_back(sizes.back());
+    for (double& size : larger.back()) size += by.back();
+  }
+  const EnsembleInTime raised = EnsembleInTime(sizes, 3).raised(by), anew(larger, 3);
+  for (const Interpretation i : kInterpretations)
+    for (const double leave_out : {0.0, 0.2}) {
+      EXPECT_EQ(raised.compliance(i, 1.1, 0.8, 0.9, leave_out).share,
+                anew.compliance(i, 1.1, 0.8, 0.9, leave_out).share);
+      EXPECT_EQ(raised.compliance(i, 1.1, 0.8, 0.9, leave_out).shown,
+                anew.compliance(i, 1.1, 0.8, 0.9, leave_out).shown);
+      EXPECT_EQ(raised.level(i, 0.8, 0.9, leave_out).value, anew.level(i, 0.8, 0.9, leave_out).value);
+      EXPECT_EQ(raised.level(i, 0.8, 0.9, leave_out).high, anew.level(i, 0.8, 0.9, leave_out).high);
+    }
+  EXPECT_THROW(EnsembleInTime(sizes).raised({0.1}), std::invalid_argument);
+}
+
 TEST(Interpretation, NeedsAsManyMembersAsWilksSays) {
   const auto constant = [](std::size_t members) { return EnsembleInTime({members, std::vector<double>(10, 1.0)}); };
   for (const Interpretation i : {Interpretation::ensemble, Interpretation::mixed}) {
