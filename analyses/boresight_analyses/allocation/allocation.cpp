@@ -201,6 +201,11 @@ std::vector<std::vector<double>> Allocating::gaps_of(const Allocation& a, const 
                                                      std::size_t count) const {
   std::vector<std::vector<double>> gaps(count, std::vector<double>(plan_.entries.size()));
   for (std::size_t j = 0; j < plan_.entries.size(); ++j) {
+    // Of the search's own samples they are known: a fit's quantiles are integrals.
+    if (&unit == &unit_ && !plan_.entries[j].is_continuous()) {
+      for (std::size_t k = 0; k < count; ++k) gaps[k][j] = statistical_->gap(j, a.choice[j], k);
+      continue;
+    }
     const DistributionPtr d = zone_of(a, j);
     for (std::size_t k = 0; k < count; ++k) gaps[k][j] = d->quantile(unit[j][k]);
   }

@@ -46,6 +46,10 @@ class StatisticalRequirement final : public AllocationRequirement {
   std::vector<double> indices(std::span<const int> choice) const;  // of all samples
   // The least limit that this set meets: the largest index but the allowed ones.
   double reached(std::span<const int> choice) const;
+  // Of an option in one of the samples.
+  double gap(std::size_t joint, int option, std::size_t sample) const {
+    return gap_[joint][static_cast<std::size_t>(option)][sample];
+  }
   // Variance of the index that joint j's gap brings, to first order about the mean gaps, as shares of their
   // sum.
   std::vector<double> error_shares(std::span<const int> choice) const;
@@ -56,9 +60,6 @@ class StatisticalRequirement final : public AllocationRequirement {
   double least_of(std::span<const int> choice, std::span<const double> c, std::span<double> g, std::size_t k) const;
   // An upper bound of sample k's index that costs next to nothing.
   double quick_bound(std::span<const double> gaps, std::size_t k) const;
-  double gap(std::size_t joint, int option, std::size_t sample) const {
-    return gap_[joint][static_cast<std::size_t>(option)][sample];
-  }
   // c: of sample k, all that the deviation is linear in, with the open joints at their tightest.
   void take(std::span<const int> choice, std::size_t k, std::vector<double>& c) const;
   std::size_t size() const { return gap_.size() + beside_.size(); }
