@@ -53,7 +53,7 @@ MorrisEffects<Sampling> morris_effects(const std::vector<IntervalOf<Sampling>>& 
 
 MorrisTrajectories::MorrisTrajectories(ParameterGroups groups, int levels, std::uint64_t seed)
     : groups_(std::move(groups)), levels_(levels), seed_(seed) {
-  if (levels < 2 || levels % 2 != 0) throw std::invalid_argument("levels: an even number");
+  if (levels < 4 || levels % 4 != 0) throw std::invalid_argument("levels: a multiple of four");
 }
 
 int MorrisTrajectories::level(double u) const { return std::clamp(static_cast<int>(u * levels_), 0, levels_ - 1); }

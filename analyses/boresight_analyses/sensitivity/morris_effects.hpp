@@ -2,7 +2,9 @@
 //
 // Each coordinate of the unit cube has p levels, the middles of p equal cells, (k + 1/2) / p. A row is a trajectory: it begins at
 // random levels and moves one parameter (group) after the other, in random order, by half of the levels, so n rows of g groups
-// cost n (g + 1) runs. As p is even, there is one way to move, and every level is as probable as any other all along. The
+// cost n (g + 1) runs. As p is even, there is one way to move, and every level is as probable as any other all along. As p is a
+// multiple of four, no move goes from u to 1 - u: such a mirror image about the median changes no magnitude of an error about
+// zero, however much of the scatter it makes. With p = 4 k + 2 the move from level k is one, with p = 2 every move. The
 // elementary effect of a move is
 //
 //   d = (y after - y before) / (u after - u before),   |u after - u before| = 1/2,
@@ -30,7 +32,7 @@ namespace boresight {
 // The trajectories of a study.
 class MorrisTrajectories {
  public:
-  // levels: even. Throws std::invalid_argument otherwise.
+  // levels: a multiple of four. Throws std::invalid_argument otherwise.
   MorrisTrajectories(ParameterGroups groups, int levels, std::uint64_t seed);
 
   std::uint64_t points() const { return groups_.size() + 1; }  // of a trajectory

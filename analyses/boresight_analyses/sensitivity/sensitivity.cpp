@@ -101,11 +101,14 @@ std::optional<GlobalSensitivity> global_sensitivity(const SensitivityPlan& plan,
 }
 
 std::optional<Screening> screening(const SensitivityPlan& plan, const SampleStore& store) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
   std::optional<Screening> result = answered<Screening>(
       plan, store,
       [&](std::uint64_t row, const std::vector<double>& y) {
         Point start(plan.inputs.size());
         plan.points->point(row, start);
+        for (const double value : y)
+          if (std::isfinite(value)) least = std::min(least, value), most = std::max(most, value);
         return plan.trajectories->effects(row, start, y);
       },
       [](const auto& rows, const auto& options) { return morris_effects(rows, options); },
@@ -120,9 +123,10 @@ std::optional<Screening> screening(const SensitivityPlan& plan, const SampleStor
         }
         return screened;
       });
-  if (result)
-    for (ScreenedGroup& group : result->groups)
-      group.negligible = group.mu_star.high <= plan.negligible * result->largest();
+  if (!result) return result;
+  result->varies = least < most;
+  for (ScreenedGroup& group : result->groups)
+    group.negligible = group.mu_star.high <= plan.negligible * result->largest();
   return result;
 }
 

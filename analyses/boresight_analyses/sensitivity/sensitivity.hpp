@@ -39,6 +39,7 @@ struct ScreenedGroup {
 };
 struct Screening : RowCounts {
   std::vector<ScreenedGroup> groups;  // in the order of the plan
+  bool varies = false;                // the index is not the same in all runs, whether or not a move changes it
   double largest() const;             // mu_star
   std::size_t negligible() const;     // how many are
 };

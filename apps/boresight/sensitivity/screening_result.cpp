@@ -9,6 +9,7 @@
 #include "report_parts/report_parts.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
+#include "sensitivity/leading_groups.hpp"
 #include "sensitivity/method_result.hpp"
 #include "terminal/columns.hpp"
 #include "terminal/readable.hpp"
@@ -29,11 +30,22 @@ class ScreeningResult final : public MethodResult {
 
   RowCounts counts() const override { return screening_; }
   std::string sentence() const override {
-    if (!(screening_.largest() > 0.0)) return "The index does not depend on what scatters.";
-    const ScreenedGroup& first = screening_.groups[order_.front()];
-    return fmt::format("{} moves the index most: mu* is {} ({} to {}); {} of {} parameters or groups are negligible",
-                       first.name, value(first.mu_star.value), value(first.mu_star.low), value(first.mu_star.high),
-                       screening_.negligible(), screening_.groups.size());
+    if (!screening_.varies) return "The index does not depend on what scatters.";
+    if (!(screening_.largest() > 0.0))
+      return fmt::format(
+          "No move between {} levels changes the index, and yet it is not the same everywhere: more levels, or "
+          "method = \"sobol\", show what changes it",
+          plan_.trajectories->levels());
+    std::vector<MeasuredGroup> effects;
+    for (const ScreenedGroup& g : screening_.groups) effects.push_back({g.name, g.mu_star});
+    const std::vector<MeasuredGroup> leading = leading_groups(effects);
+    const std::string mu_stars = measures_of(leading, [&](double si) { return value(si); });
+    return fmt::format("{}{}; {} of {} parameters or groups {} negligible",
+                       names_of(leading) + (leading.size() > 1 ? " move the index most; these samples do not tell them "
+                                                                 "apart: their mu* are "
+                                                               : " moves the index most: mu* is "),
+                       mu_stars, screening_.negligible(), screening_.groups.size(),
+                       screening_.negligible() == 1 ? "is" : "are");
   }
   std::vector<report::Fact> facts() const override {
     return {{"largest mu*", value(screening_.largest()), "", "change of the index over a parameter's whole range"},
@@ -99,10 +111,10 @@ class ScreeningResult final : public MethodResult {
     }
     if (screening_.negligible() > 0 && screening_.negligible() < screening_.groups.size())
       tell(
-          "  {} of {} move the index by less than {:g} % of what {} does: leave them out to divide the variance "
-          "(method = \"sobol\")\n",
+          "  negligible: {} of {}, with mu* below {:g} % of the largest; dividing the variance (method = \"sobol\") "
+          "may leave {} out\n",
           screening_.negligible(), screening_.groups.size(), 100.0 * plan_.negligible,
-          screening_.groups[order_.front()].name);
+          screening_.negligible() == 1 ? "it" : "them");
   }
 
  private:

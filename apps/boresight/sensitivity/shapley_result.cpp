@@ -8,6 +8,7 @@
 
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
+#include "sensitivity/leading_groups.hpp"
 #include "sensitivity/method_result.hpp"
 #include "terminal/columns.hpp"
 #include "terminal/readable.hpp"
@@ -29,6 +30,12 @@ class ShapleyResult final : public MethodResult {
   RowCounts counts() const override { return division_; }
   std::string sentence() const override {
     if (division_.sd <= 1e-9 * std::abs(division_.mean)) return "The index does not depend on what scatters.";
+    std::vector<MeasuredGroup> effects;
+    for (const ShapleyGroup& g : division_.groups) effects.push_back({g.name, g.effect});
+    const std::vector<MeasuredGroup> leading = leading_groups(effects);
+    if (leading.size() > 1)
+      return fmt::format("{} matter most; these samples do not tell them apart: their shares of the variance are {}",
+                         names_of(leading), measures_of(leading, share_text));
     const ShapleyGroup& first = division_.groups[order_.front()];
     return fmt::format("{} matters most: its share of the variance is {} ({} to {})", first.name,
                        share_text(first.effect.value), share_text(first.effect.low), share_text(first.effect.high));

@@ -8,6 +8,7 @@
 
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
+#include "sensitivity/leading_groups.hpp"
 #include "sensitivity/method_result.hpp"
 #include "terminal/columns.hpp"
 #include "terminal/readable.hpp"
@@ -148,7 +149,19 @@ class SobolResult final : public MethodResult {
 
 std::string SobolResult::sentence() const {
   if (global_.sd <= 1e-9 * std::abs(global_.mean)) return "The index does not depend on what scatters.";
+  std::vector<MeasuredGroup> totals;
+  for (const GroupSensitivity& g : global_.groups) totals.push_back({g.name, g.total});
+  const std::vector<MeasuredGroup> leading = leading_groups(totals);
   const GroupSensitivity& first = global_.groups[by_total(global_).front()];
+  const std::string aside = "; an estimate of a share may come out a little below 0 or above 1";
+  if (leading.size() > 1) {
+    const bool beyond = std::any_of(leading.begin(), leading.begin() + static_cast<std::ptrdiff_t>(named(leading)),
+                                    [](const MeasuredGroup& g) { return g.measure.low < 0.0 || g.measure.high > 1.0; });
+    return fmt::format(
+        "{} matter most; these samples do not tell them apart: their shares of the variance, with all that each does "
+        "together with others, are {}{}",
+        names_of(leading), measures_of(leading, share_text), beyond ? aside : "");
+  }
   // The numbers of the table. Estimates of what lies between 0 and 1 may lie beyond, and that is said.
   const bool beyond =
       std::min(first.first.low, first.total.low) < 0.0 || std::max(first.first.high, first.total.high) > 1.0;
@@ -156,8 +169,7 @@ std::string SobolResult::sentence() const {
       "{} matters most: its share of the variance is {} alone ({} to {}) and {} with all it does together with others "
       "({} to {}){}",
       first.name, share_text(first.first.value), share_text(first.first.low), share_text(first.first.high),
-      share_text(first.total.value), share_text(first.total.low), share_text(first.total.high),
-      beyond ? "; an estimate of a share may come out a little below 0 or above 1" : "");
+      share_text(first.total.value), share_text(first.total.low), share_text(first.total.high), beyond ? aside : "");
 }
 
 }  // namespace

@@ -161,6 +161,38 @@ TEST(MorrisEffects, EveryLevelIsAsProbableAtEveryStep) {
   EXPECT_THROW(MorrisTrajectories(single_parameters(3), 5, 1), std::invalid_argument);
 }
 
+// Of u and 1 - u a magnitude of errors about zero is the same.
+TEST(MorrisEffects, NoMoveIsAMirrorImageAboutTheMedian) {
+  for (int levels = 2; levels <= 64; ++levels) {
+    if (levels % 4 != 0) {
+      EXPECT_THROW(MorrisTrajectories(single_parameters(1), levels, 1), std::invalid_argument) << levels;
+      continue;
+    }
+    const MorrisTrajectories of(single_parameters(1), levels, 1);
+    for (int k = 0; k < levels; ++k) {
+      Point before{(k + 0.5) / levels}, after = before;
+      of.place(0, 0, before);
+      of.place(0, 1, after);
+      EXPECT_DOUBLE_EQ(std::abs(after[0] - before[0]), 0.5);
+      EXPECT_GE(std::abs(after[0] + before[0] - 1.0), 0.9 / levels) << levels << " levels, from " << before[0];
+    }
+  }
+}
+
+TEST(MorrisEffects, OfAMagnitudeAreNotNothing) {
+  std::mt19937_64 engine(11);
+  for (const int levels : {4, 8, 12, 64}) {
+    const MorrisTrajectories of(single_parameters(2), levels, 11);
+    const auto found =
+        morris_effects(morris_rows(pointwise([](const Point& u) { return std::abs(u[0] - 0.5) + 0.01 * u[1]; }),
+                                   starts(engine, 400, 2), of),
+                       {});
+    // |u - 1/2| changes by 1/2 - 2 |u - 1/4| or its negative, u the lower end: on average by a quarter.
+    EXPECT_NEAR(found.groups[0].mu_star.value, 2.0 * 0.25, 0.05) << levels;
+    EXPECT_NEAR(found.groups[1].mu_star.value, 0.01, 1e-12) << levels;
+  }
+}
+
 TEST(MorrisEffects, MoveAGroupAsOne) {
   std::mt19937_64 engine(9);
   const MorrisTrajectories of({{0, 2}, {1}}, kLevels, 9);

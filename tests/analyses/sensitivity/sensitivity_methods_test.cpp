@@ -100,7 +100,9 @@ TEST_F(SensitivityTest, KeysOfAnotherMethodAndWhatAMethodCannotDoAreRefused) {
   expect_refused("[sensitivity]\nsamples = 64\nlevels = 4\n", "with method = \"morris\" only");
   expect_refused(kShapley + "samples = 64\nnegligible = 0.1\n", "with method = \"morris\" only");
   expect_refused(kMorris + "samples = 64\norders = \"all\"\n", "with method = \"shapley\" only");
-  expect_refused(kMorris + "samples = 64\nlevels = 5\n", "an even number");
+  for (const char* levels : {"2", "3", "5", "6", "10", "62", "68"})
+    expect_refused(kMorris + "samples = 64\nlevels = " + levels + "\n",
+                   "a multiple of 4 from 4 to 64: with other numbers some moves are mirror images about the median");
   expect_refused(kMorris + "samples = 64\nnegligible = 1.5\n", "less than 1");
   expect_refused("[sensitivity]\nsamples = 64\n", "or method = \"shapley\"", kCorrelated);
   expect_refused(kMorris + "samples = 64\n", "correlated parameters in one group", kCorrelated);
@@ -115,7 +117,7 @@ TEST_F(SensitivityTest, PlansOfOtherMethodsAreOtherRuns) {
   const Study study;
   const std::string sobol = plan("[sensitivity]\nsamples = 64\n").text(study),
                     morris = plan(kMorris + "samples = 64\n").text(study),
-                    levels = plan(kMorris + "samples = 64\nlevels = 6\n").text(study),
+                    levels = plan(kMorris + "samples = 64\nlevels = 8\n").text(study),
                     shapley = plan(kShapley + "samples = 64\n").text(study),
                     orders = plan(kShapley + "samples = 64\norders = \"random\"\n").text(study);
   EXPECT_NE(sobol, morris);
