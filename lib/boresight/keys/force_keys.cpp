@@ -34,7 +34,7 @@ const KeyTable& load_keys() {
       .name = "load",
       .says =
           "A load from outside: a torque about a revolute joint, a force along a prismatic one, or a force at a point "
-          "of a body.",
+          "of a body. A blow that is over within 50 us, or within a millionth of a long motion, may not be seen.",
       .keys = {text("joint")
                    .sometimes("this, or body")
                    .says("The revolute or prismatic joint that it acts on: on its second body, and back on its first."),

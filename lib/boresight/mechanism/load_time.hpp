@@ -10,8 +10,8 @@ namespace boresight {
 
 // The shortest time in which one of the loads changes by all that it ever does: its range over its largest rate [s]; of a sinusoid 2 / omega,
 // of a bell 1.65 standard deviations. Infinite where no load changes by more than a millionth of what the bodies weigh, or of the
-// largest load. Looked for at instants kLookedAt apart, or more of a motion that
-// is longer than 65,536 of them: a blow that is over within one of these may not be seen.
+// largest load. Looked for at instants kLookedAt apart, or more of a motion that is longer than 1,048,576 of them, of 1000 s a millisecond: a
+// blow that is over within one of these may not be seen.
 double load_time(const Mechanism& mechanism);
 
 // The same of the laws of drives' errors, one by one, along a commanded motion; infinite of those that are not `wanted` or do not change.

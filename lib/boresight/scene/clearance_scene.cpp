@@ -159,7 +159,14 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
     first_cells = std::max(first_cells, std::ceil((ideal.knots() - 1.0) / kKnotsOfCell));
   // What a load does within a cell is seen by no knot.
   load_time_ = boresight::load_time(mechanism);
-  first_cells = std::max(first_cells, std::ceil(mechanism.duration() / (kCellOfLoads * load_time_)));
+  const double cells_of_loads = std::ceil(mechanism.duration() / (kCellOfLoads * load_time_));
+  std::string fast_load;
+  if (cells_of_loads > first_cells) {
+    first_cells = cells_of_loads;
+    char text[100];
+    std::snprintf(text, sizeof text, ", as a load changes by all that it does within %.2g s", load_time_);
+    fast_load = text;
+  }
   // A knot's matrices, and its row in the tables.
   const double numbers = (6.0 * mechanism.bodies() + offsets_.size()) * layout_.n +
                          static_cast<double>(groups_.size()) * element_size() + 3.0 * layout_.width;
@@ -168,12 +175,12 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
   const auto refuse_unless_held = [&](double knots) {
     const double bytes = knots * bytes_of_knot;
     if (bytes <= kMostTableBytes) return;
-    char text[300];
+    char text[400];
     std::snprintf(
         text, sizeof text,
-        "the opened mechanism's dynamics over %.6g s would take %.2g GB of memory as a table (%.2g instants); shorten "
-        "motion.duration to what has to be seen, or use the multibody rung, which needs no table",
-        mechanism.duration(), 1e-9 * bytes, knots);
+        "the opened mechanism's dynamics over %.6g s would take %.2g GB of memory as a table (%.2g instants)%s; "
+        "shorten motion.duration to what has to be seen, or use the multibody rung, which needs no table",
+        mechanism.duration(), 1e-9 * bytes, knots, fast_load.c_str());
     throw MotionTooDense(text);
   };
   refuse_unless_held(2.0 * first_cells);
