@@ -6,6 +6,7 @@
 
 #include "boresight/math/eigenvalues.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/calibration/noise_scales.hpp"
 
 namespace boresight {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // What the slopes need: at 1e-7, the fit's own, a small component of the gradient was off by a twenty-fifth of itself.
 constexpr double kTolerance = 1e-8;
+// Of the noise and the rest, turn about.
+constexpr int kNoiseSteps = 50;
 
 // What parameters can mimic of suspects: least |D - A S - F b|, over all windows. ridge: of the rows of S.
 MatX mimicked(const std::vector<MatX>& A, const std::vector<MatX>& F, const std::vector<MatX>& D, const VecX& ridge) {
@@ -57,8 +60,8 @@ PosteriorDensity::PosteriorDensity(const CalibrationProblem& problem, const FitR
   }
   known_ = problem_.prior_information()(sampled_);
   told_ = problem_.packed(problem_.start())(sampled_);
-  sharpness_ = 1.0 / std::max(1.0, disagreement * disagreement);
-  prior_scale_ = variance_factor / sharpness_;
+  flattened_ = std::max(1.0, disagreement * disagreement);
+  variance_factor_ = variance_factor;
   flat_ = problem_.global_count() - problem_.bias_column();
   suspects_ = static_cast<Eigen::Index>(suspects.size());
 
@@ -110,7 +113,8 @@ PosteriorDensity::PosteriorDensity(const CalibrationProblem& problem, const FitR
 
 void PosteriorDensity::set_sizes(const std::vector<ReducedWindow>& full, long values) {
   const Eigen::Index d = size(), linear = flat_ + suspects_;
-  half_freedoms_ = 0.5 * sharpness_ * static_cast<double>(values - flat_);
+  freedoms_ = static_cast<double>(values - flat_);
+  noise_known_ = values - flat_ - d <= suspects_;
   const VecX center = problem_.packed(fitted_)(sampled_), off = center - told_;
   // The priors' quadratic of (y, b, c): of the globals y - S c about what was told, and of c.
   MatX from(d, d + linear);
@@ -118,32 +122,63 @@ void PosteriorDensity::set_sizes(const std::vector<ReducedWindow>& full, long va
   MatX P = from.transpose() * known_.asDiagonal() * from;
   P.diagonal().tail(suspects_).array() += 1.0;
   const VecX pull = from.transpose() * known_.cwiseProduct(off);
+  const MatX of_c = P.bottomRightCorner(suspects_, suspects_);
   const JumpSizes jumps = jump_sizes(full);
-  std::vector<NormalSolution> solutions;
+  std::vector<VecX> means;
+  std::vector<MatX> covariances;
   std::vector<double> log_weight;
   for (std::size_t j = 0; j < jumps.q.size(); ++j) {
-    NormalEquations n = sum_with_jumps(full, jumps.q[j]);
-    n.M += prior_scale_ * P;
-    n.b += prior_scale_ * pull;
-    n.rr += prior_scale_ * off.cwiseAbs2().dot(known_);
-    solutions.push_back(solved(n, VecX::Zero(d + linear), VecX::Zero(d + linear)));
-    const NormalSolution alone = solved({n.M.bottomRightCorner(linear, linear), VecX::Zero(linear), 0.0, n.log_det},
-                                        VecX::Zero(linear), VecX::Zero(linear));
-    sizes_.push_back({jumps.q[j], -0.5 * sharpness_ * (n.log_det + alone.log_det) + jumps.log_width[j], alone.inverse});
-    log_weight.push_back(-0.5 * sharpness_ * (n.log_det + solutions.back().log_det) + jumps.log_width[j] -
-                         half_freedoms_ * std::log(solutions.back().rss));
+    const NormalEquations data = sum_with_jumps(full, jumps.q[j]);
+    const NormalSolution flat =
+        solved({data.M.block(d, d, flat_, flat_), VecX::Zero(flat_), 0.0, 0.0}, VecX::Zero(flat_), VecX::Zero(flat_));
+    Size one{.q = jumps.q[j],
+             .weight = -0.5 * (data.log_det + flat.log_det) / flattened_ + jumps.log_width[j],
+             .flat_inverse = flat_ > 0 ? flat.inverse : MatX(0, 0),
+             .flat_by_c = data.M.block(d, d + flat_, flat_, suspects_),
+             .basis = MatX(0, 0),
+             .lambda = {}};
+    if (suspects_ > 0) {
+      const MatX H =
+          data.M.bottomRightCorner(suspects_, suspects_) - one.flat_by_c.transpose() * one.flat_inverse * one.flat_by_c;
+      const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> eigen(0.5 * (H + H.transpose()), of_c);
+      one.basis = eigen.eigenvectors();
+      one.lambda = eigen.eigenvalues().cwiseMax(0.0);
+    }
+    sizes_.push_back(std::move(one));
+
+    // At the noise that is most probable where the rest is.
+    double variance = variance_factor_, prior = 0.0, rss = 0.0;
+    NormalSolution solution;
+    for (int k = 0; k < kNoiseSteps; ++k) {
+      const double scale = variance * flattened_;
+      NormalEquations n = data;
+      n.M += scale * P;
+      n.b += scale * pull;
+      n.rr += scale * off.cwiseAbs2().dot(known_);
+      solution = solved(n, VecX::Zero(d + linear), VecX::Zero(d + linear));
+      prior = off.cwiseAbs2().dot(known_) + 2.0 * pull.dot(solution.x) + solution.x.dot(P * solution.x);
+      rss = std::max(solution.rss - scale * prior, std::numeric_limits<double>::min());
+      const double before = variance;
+      if (!noise_known_) variance = rss / freedoms_;
+      if (std::abs(variance - before) <= 1e-6 * before) break;
+    }
+    means.push_back(solution.x.head(d));
+    covariances.push_back(variance * flattened_ * solution.inverse.topLeftCorner(d, d));
+    // Of y and c as the normal distribution about the most probable; the flat ones have their power of s in the freedoms.
+    const double log_scale = std::log(variance * flattened_);
+    log_weight.push_back(sizes_.back().weight - 0.5 * freedoms_ / flattened_ * log_scale -
+                         0.5 * (rss / (variance * flattened_) + prior) -
+                         0.5 * (solution.log_det - flat.log_det - static_cast<double>(d + suspects_) * log_scale));
   }
   const double most = *std::max_element(log_weight.begin(), log_weight.end());
   double sum = 0.0;
   for (double& w : log_weight) sum += w = std::exp(w - most);
   mean_ = VecX::Zero(d);
   covariance_ = MatX::Zero(d, d);
-  for (std::size_t j = 0; j < solutions.size(); ++j) mean_ += log_weight[j] / sum * solutions[j].x.head(d);
-  for (std::size_t j = 0; j < solutions.size(); ++j) {
-    const VecX from_mean = solutions[j].x.head(d) - mean_;
-    covariance_ += log_weight[j] / sum *
-                   (solutions[j].rss / (2.0 * half_freedoms_) * solutions[j].inverse.topLeftCorner(d, d) +
-                    from_mean * from_mean.transpose());
+  for (std::size_t j = 0; j < means.size(); ++j) mean_ += log_weight[j] / sum * means[j];
+  for (std::size_t j = 0; j < means.size(); ++j) {
+    const VecX from_mean = means[j] - mean_;
+    covariance_ += log_weight[j] / sum * (covariances[j] + from_mean * from_mean.transpose());
   }
   mean_ = (mean_ + center).cwiseMax(lower_).cwiseMin(upper_);
 }
@@ -167,24 +202,49 @@ bool PosteriorDensity::weigh(const VecX& y, bool slopes, Weighed& out) const {
     take_residuals(placed.X, out.r.back(), out.reduced.back());
   }
   const VecX off = y - told_;
-  for (const Size& size : sizes_) {
+  const VecX toward = mimics_.transpose() * known_.cwiseProduct(off);
+  std::vector<VecX> flat_at;  // F' V^-1 r, by size
+  for (std::size_t j = 0; j < sizes_.size(); ++j) {
+    const Size& size = sizes_[j];
     VecX b = VecX::Zero(flat_ + suspects_);
-    b.tail(suspects_) = -prior_scale_ * mimics_.transpose() * known_.cwiseProduct(off);
-    double rr = prior_scale_ * off.cwiseAbs2().dot(known_);
+    double rr = 0.0;
     for (const ReducedWindow& w : out.reduced) {
       const double s = w.jumps ? size.q * size.q : 1.0;
       const VecX fy = (s * w.y.array() / (1.0 + s * w.g.array())).matrix();
       b += w.Xr - w.Y * fy;
       rr += w.rr - w.y.dot(fy);
     }
-    out.x.push_back(-(size.inverse * b));
-    out.rss.push_back(std::max(rr + b.dot(out.x.back()), std::numeric_limits<double>::min()));
-    out.share.push_back(size.weight - half_freedoms_ * std::log(out.rss.back()));
+    flat_at.push_back(b.head(flat_));
+    const VecX without_flat = size.flat_inverse * b.head(flat_);
+    const ScaledResiduals residuals{
+        .rr = rr - b.head(flat_).dot(without_flat),
+        .g = size.basis.transpose() * (b.tail(suspects_) - size.flat_by_c.transpose() * without_flat),
+        .lambda = size.lambda,
+        .known = off.cwiseAbs2().dot(known_),
+        .m = size.basis.transpose() * toward,
+        .values = freedoms_,
+        .flattened = flattened_,
+        .told = noise_known_ ? variance_factor_ : 0.0};
+    for (NoiseScale& scale : noise_scales(residuals))
+      out.scales.push_back({j, scale.square, size.weight + scale.log_weight, std::move(scale.c)});
   }
-  const double most = *std::max_element(out.share.begin(), out.share.end());
+  const auto smaller = [](const Scale& a, const Scale& b) { return a.share < b.share; };
+  const double most = std::max_element(out.scales.begin(), out.scales.end(), smaller)->share;
   double sum = 0.0;
-  for (double& w : out.share) sum += w = std::exp(w - most);
-  for (double& w : out.share) w /= sum;
+  for (Scale& scale : out.scales) sum += scale.share = std::exp(scale.share - most);
+  out.pull.assign(sizes_.size(), 0.0);
+  out.pulled.assign(sizes_.size(), VecX::Zero(flat_ + suspects_));
+  out.c = VecX::Zero(suspects_);
+  for (Scale& scale : out.scales) {
+    const Size& size = sizes_[scale.size];
+    scale.share /= sum;
+    const double pull = scale.share / scale.square;
+    const VecX c = size.basis * scale.c;
+    out.pull[scale.size] += pull;
+    out.pulled[scale.size].head(flat_) -= pull * (size.flat_inverse * (flat_at[scale.size] + size.flat_by_c * c));
+    out.pulled[scale.size].tail(suspects_) += pull * c;
+    out.c += scale.share * c;
+  }
   out.log_density = most + std::log(sum);
   return true;
 }
@@ -195,40 +255,35 @@ double PosteriorDensity::log_density(const VecX& y, VecX& gradient) const {
   Weighed at;
   if (!weigh(y, slopes, at)) return -kInfinity;
   if (!slopes) return at.log_density;
-  // d RSS = 2 (V^-1 (r + X x))' dr: x stands where RSS is least.
-  std::vector<double> pull;
+  // d RSS = 2 (V^-1 (r + X x))' dr: x stands where RSS and the priors' term are least.
   double of_r = 0.0;
   VecX of_X = VecX::Zero(flat_ + suspects_);
   for (std::size_t j = 0; j < sizes_.size(); ++j) {
-    pull.push_back(at.share[j] * 2.0 * half_freedoms_ / at.rss[j]);
-    of_r += pull[j];
-    of_X += pull[j] * at.x[j];
+    of_r += at.pull[j];
+    of_X += at.pulled[j];
   }
   for (std::size_t k = 0; k < windows_.size(); ++k) {
     const ReducedWindow& w = at.reduced[k];
     VecX of_B = VecX::Zero(w.y.size());
     for (std::size_t j = 0; j < sizes_.size(); ++j) {
       const double s = w.jumps ? sizes_[j].q * sizes_[j].q : 1.0;
-      of_B -= pull[j] * (s * (w.y + w.Y.transpose() * at.x[j]).array() / (1.0 + s * w.g.array())).matrix();
+      of_B -= (s * (at.pull[j] * w.y + w.Y.transpose() * at.pulled[j]).array() / (1.0 + s * w.g.array())).matrix();
     }
     gradient -= at.J[k].transpose() * (of_r * at.r[k] + windows_[k].X * of_X + w.BU * of_B);
   }
-  gradient -= prior_scale_ * known_.cwiseProduct(of_r * (y - told_) - mimics_ * of_X.tail(suspects_));
+  gradient -= known_.cwiseProduct(y - told_ - mimics_ * at.c);
   return at.log_density;
 }
 
 VecX PosteriorDensity::drawn(const VecX& y, double uniform, const std::function<double(int)>& normal) const {
   Weighed at;
   if (suspects_ == 0 || !weigh(y, false, at)) return y;
-  std::size_t j = 0;
-  for (double below = at.share[0]; below < uniform && j + 1 < at.share.size(); below += at.share[j]) ++j;
-  const MatX C = at.rss[j] / (2.0 * half_freedoms_) * sizes_[j].inverse.bottomRightCorner(suspects_, suspects_);
-  VecX n(suspects_);
-  for (int s = 0; s < suspects_; ++s) n[s] = normal(s);
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(C);
-  const VecX c =
-      at.x[j].tail(suspects_) + eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().cwiseProduct(n);
-  return (y - mimics_ * c).cwiseMax(lower_).cwiseMin(upper_);
+  std::size_t k = 0;
+  for (double below = at.scales[0].share; below < uniform && k + 1 < at.scales.size(); below += at.scales[k].share) ++k;
+  const Size& size = sizes_[at.scales[k].size];
+  VecX c = at.scales[k].c;
+  for (int i = 0; i < suspects_; ++i) c[i] += normal(i) / std::sqrt(size.lambda[i] / at.scales[k].square + 1.0);
+  return (y - mimics_ * (size.basis * c)).cwiseMax(lower_).cwiseMin(upper_);
 }
 
 }  // namespace boresight

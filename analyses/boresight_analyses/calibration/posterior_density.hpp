@@ -6,10 +6,11 @@
 //   f(r(theta)) + F b + D c + B w = noise     b: offsets and drifts of channels, any as probable; c: suspects, N(0, 1);
 //                                             w: jumps that nobody has named, N(0, q^2 s^2), any q as probable; noise N(0, s^2), any log s
 //
-//   -2 log p(theta | q) = log det V + log det (X' V^-1 X + P) + (N - F) log RSS(q, theta) / D,   V = 1 + q^2 B B'
+//   -2 log p(theta | q) = (log det V + log det F' V^-1 F + (N - F) log RSS(q, theta)) / D + prior(theta),   V = 1 + q^2 B B'
 //
-// (Zellner 1971, An introduction to Bayesian inference in econometrics, section 3.1, for b, c and s), summed over q; RSS has the priors in
-// it. F, B and D are those at the fit. f is the residual as the loss has it there, and straight from there on,
+// (Zellner 1971, An introduction to Bayesian inference in econometrics, section 3.1, for b and s), summed over q; with suspects also over s
+// (noise_scales.hpp). Priors are a term of their own, since they are known in their own units: in RSS, one that the data contradict would
+// count as noise, and make what it says nothing of uncertain too. F, B and D are those at the fit. f is the residual as the loss has it there, and straight from there on,
 //
 //   f(r) = f(r_fit) + f'(r_fit) (r - r_fit):
 //
@@ -73,15 +74,24 @@ class PosteriorDensity {
   };
   struct Size {                    // of a jump
     double q = 0.0, weight = 0.0;  // weight: the logarithm of what does not hang on y
-    MatX inverse;                  // of X' V^-1 X + P
+    MatX flat_inverse, flat_by_c;  // of F' V^-1 F; F' V^-1 times the suspects' rests
+    MatX basis;                    // of c, in which its prior is 1 and the data's matrix diagonal
+    VecX lambda;
   };
-  // Of one y, by size of the jumps.
+  struct Scale {  // of the noise, for one size of the jumps
+    std::size_t size = 0;
+    double square = 1.0, share = 0.0;  // s^2 D; its probability
+    VecX c;                            // in the basis
+  };
+  // Of one y. pull, pulled: by size of the jumps, sums of share / square, and of that times (b, c).
   struct Weighed {
     std::vector<VecX> r;
     std::vector<MatX> J;
     std::vector<ReducedWindow> reduced;
-    std::vector<VecX> x;
-    std::vector<double> rss, share;  // share: probability of the size
+    std::vector<Scale> scales;
+    std::vector<double> pull;
+    std::vector<VecX> pulled;
+    VecX c;  // its mean
     double log_density = 0.0;
   };
   bool weigh(const VecX& y, bool slopes, Weighed& out) const;
@@ -97,9 +107,10 @@ class PosteriorDensity {
   VecX mean_;
   MatX covariance_;
   Eigen::Index flat_ = 0, suspects_ = 0;
-  double half_freedoms_ = 0.0;  // (N - F) / 2, over D
-  double sharpness_ = 1.0;      // 1 / D
-  double prior_scale_ = 1.0;    // of priors in RSS
+  double freedoms_ = 0.0;         // N - F
+  double flattened_ = 1.0;        // D
+  double variance_factor_ = 1.0;  // of the fit
+  bool noise_known_ = false;      // the data leave nothing to tell it by: the fit's
 };
 
 }  // namespace boresight
