@@ -19,7 +19,7 @@ std::string sign_of(const Key& key) {
   return sign;
 }
 
-std::string escaped(const std::string& unit) {
+std::string as_pattern(const std::string& unit) {
   std::string out;
   for (const char c : unit) {
     if (std::string("^.*/()%").find(c) != std::string::npos) out += '\\';
@@ -58,7 +58,7 @@ std::string larger_than(double most, const SiUnit& unit) {
     // A little more, for rounding.
     const double power = std::floor(std::log10(most / scale_of_unit(common, unit) * (1.0 + 1e-9))) + 1.0;
     if (power >= 1.0 && power < 100.0)
-      all.push_back(at_least_ten_to(static_cast<int>(power)) + "[ \\t]*" + escaped(common));
+      all.push_back(at_least_ten_to(static_cast<int>(power)) + "[ \\t]*" + as_pattern(common));
   }
   return all.empty() ? "" : one_of(all);
 }
@@ -79,7 +79,7 @@ std::string not_too_large(const Key& key) {
 std::string not_of_another_dimension(const Key& key) {
   if (*key.range.unit.what == '\0') return "";
   std::vector<std::string> all;
-  for (const std::string& common : common_units(key.range.unit, false)) all.push_back(escaped(common));
+  for (const std::string& common : common_units(key.range.unit, false)) all.push_back(as_pattern(common));
   return not_this("[ \\t]*" + one_of(all));
 }
 

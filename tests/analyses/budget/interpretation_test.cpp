@@ -103,7 +103,7 @@ TEST(Interpretation, TheMixedIntervalHoldsTheLevelAtLeastAsOftenAsItClaims) {
 
 TEST(Interpretation, RefusesMembersOfUnequalLengthAndNone) {
   EXPECT_THROW(EnsembleInTime({{1.0, 2.0}, {1.0}}), std::invalid_argument);
-  EXPECT_THROW(EnsembleInTime({}), std::invalid_argument);
+  EXPECT_THROW(EnsembleInTime(std::vector<std::vector<double>>{}), std::invalid_argument);
 }
 
 // A member keeps the limit with a chance that is just the share asked for: called met no more often than 1 - confidence.
