@@ -141,6 +141,31 @@ TEST(PosteriorDrawsLong, FollowThePriorOfWhatTheDataDoNotTell) {
   EXPECT_NEAR(drawn->quantities[0].deviation, 1e-4, 4e-6);
 }
 
+// Whatever the data say of it: a prior that they contradict is no noise of theirs.
+TEST(PosteriorDensity, HasItsPriorsAsATermOfTheirOwn) {
+  const auto mechanism = std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/altaz-gimbal/altaz-gimbal.toml", std::vector<Setting>{}));
+  const poses::Bench bench(mechanism, {"error.IA", "error.IE"}, {6, 7, 8}, 4);
+  const Fitted fitted(bench.problem({20e-6, 20e-6, 20e-6}, 5), false);
+  CalibrationProblem told = fitted.problem;
+  told.parameters[0].has_prior = true;
+  const auto density = [&](const CalibrationProblem& problem) {
+    return PosteriorDensity(problem, fitted.result.fit, fitted.result.fixed, {},
+                            fitted.result.inference.variance_factor, 1.0, 1);
+  };
+  const PosteriorDensity without = density(fitted.problem), with = density(told);
+  const double start = told.packed(told.start())[0], known = told.prior_information()[0];
+  ASSERT_GT(known, 0.0);
+  VecX unused;
+  const auto adds = [&](const VecX& y) { return with.log_density(y, unused) - without.log_density(y, unused); };
+  const VecX error = without.covariance().diagonal().cwiseSqrt();
+  const double middle = adds(without.mean()) + 0.5 * known * std::pow(without.mean()[0] - start, 2);
+  for (const double side : {-3.0, -1.0, 2.0}) {
+    const VecX y = without.mean() + side * error;
+    EXPECT_NEAR(adds(y), middle - 0.5 * known * std::pow(y[0] - start, 2), 1e-6 * (1.0 + std::abs(adds(y))));
+  }
+}
+
 TEST(PosteriorDraws, AreWrittenAsRowsThatAStudyReads) {
   PosteriorDraws drawn;
   drawn.quantities.resize(2);
