@@ -18,8 +18,8 @@ inline void fields(Numbers& n, ContactEvent& e) {
   n(e.clearance, e.place, e.start, e.start_speed, e.duration, e.max_penetration, e.max_force, e.end_speed);
 }
 inline void fields(Numbers& n, ContactSummary& c) {
-  n(c.joint, c.contact_fraction, c.impacts, c.max_penetration, c.max_force, c.max_radial_force, c.max_load, c.max_impact_speed,
-    c.validity_speed, c.impact_speed_above_validity, c.settled_from);
+  n(c.joint, c.contact_fraction, c.impacts, c.max_penetration, c.max_force, c.max_radial_force, c.max_load,
+    c.max_impact_speed, c.validity_speed, c.impact_speed_above_validity, c.settled_from);
 }
 inline void fields(Numbers& n, PoseSample& s) {
   n(s.pose, s.ideal, s.error, s.v, s.w, s.a, s.alpha, s.ideal_a, s.ideal_alpha);

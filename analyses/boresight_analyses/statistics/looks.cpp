@@ -73,7 +73,9 @@ Judgement judgement_of(const AskedShare& asked, const LookedAt& at, std::uint64_
   const double left = risk(asked) - first->spent;
   if (!at.independent || !(left > 1e-12))
     return {By::nothing, asked.confidence,
-            before + ", which took the whole risk: another look shows nothing; another seed, in a folder of its own, judges anew",
+            before +
+                ", which took the whole risk: another look shows nothing; another seed, in a folder of its own, judges "
+                "anew",
             first->samples};
   return {By::any_time, 1.0 - left,
           before + "; from then on by a confidence sequence with the risk that was left, " + percent(left),

@@ -11,7 +11,7 @@ namespace boresight {
 namespace {
 
 constexpr double kFewest = 1024.0, kMost = 1048576.0;  // looks along a motion
-constexpr double kMostAtErrors = 16384.0;            // each asks every law
+constexpr double kMostAtErrors = 16384.0;              // each asks every law
 
 // Of a look: both ends, and between them no two apart by a whole number of anything's periods, which would look like no change at all.
 double time_of_look(int look, int looks, double duration) {
