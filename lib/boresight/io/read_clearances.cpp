@@ -206,13 +206,13 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", whose guide is rectangular",
                         "width, height, length, width_gap and height_gap: the slider's size and its gaps");
   const std::string of_guide = "it only on a prismatic joint with guide = \"rectangular\"";
-  for (const char* key : {"height", "width_gap", "height_gap"})
-    if (!slider && cursor.has_by_name(key))
-      cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", which has no rectangular guide", of_guide);
   for (const char* key : {"width", "length", "width_direction"})
     if (!slider && !pad && cursor.has_by_name(key))
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", which has no rectangular guide",
                         of_guide + ", or on a planar one with a rectangular pad");
+  for (const char* key : {"height", "width_gap", "height_gap"})
+    if (!slider && cursor.has_by_name(key))
+      cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", which has no rectangular guide", of_guide);
   for (const char* key : {"radial", "journal_radius", "cap_radius", "sleeve_length"})
     if (pad && cursor.has_by_name(key))
       cursor.fail_found(

@@ -99,6 +99,7 @@ class RungsTaken : public Program, public testing::WithParamInterface<Taken> {
     std::vector<std::string> words = shell_words(command);
     words.erase(words.begin());
     words.insert(words.end(), {"--out", "out"});
+    std::filesystem::remove(folder_ / "stdout");  // of the call before
     const pid_t child = start(words);
     siginfo_t ended = {};
     while (::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0 &&
