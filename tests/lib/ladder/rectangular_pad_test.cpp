@@ -276,6 +276,22 @@ TEST(RectangularPadInItsSlot, IsFollowedAlikeByAllRungsAsItTurns) {
   }
 }
 
+// A stage that hangs from its rotor by a ball is turned by nothing: what its corners do to that turn, held loads do not show. Where the rung is
+// off, it says so.
+TEST(RectangularPadInItsSlot, ThatNothingTurnsIsNotStatedToBeNearerThanItIs) {
+  MechanismDescription m = turntable("0*t", Vec3(0.03, 0.01, 0.01), true);
+  m.joints.back().type = JointType::spherical;
+  m.joints.back().point = Vec3(0.1, 0.0, 0.0);
+  m.clearances[0].contact_law = "flores";
+  const auto mechanism = scenes::build(m);
+  const RunResult exact = make_rung("multibody", mechanism)->run(mechanism->parameters(), {});
+  const RunResult linear = make_rung("perturbation", mechanism)->run(mechanism->parameters(), {});
+  for (const PointingQuantity quantity : {PointingQuantity::position_error, PointingQuantity::boresight_error}) {
+    const double off = std::abs(linear.index.of(quantity).max - exact.index.of(quantity).max);
+    EXPECT_LE(off, linear.error.model_of(quantity) * linear.index.of(quantity).max) << static_cast<int>(quantity);
+  }
+}
+
 // Nothing to cross leaves the ideal joint's motion, up to what its contact gives way by; little leaves little.
 TEST(RectangularPadInItsSlot, WithoutAGapIsAnIdealJoint) {
   const auto error = [](double gap) {
