@@ -230,7 +230,8 @@ TEST_F(ZoneInputs, MistakesAreOneLineWithFileLineAndKey) {
   says(zone("{ cylinder = { } }"), "diameter");
   says(zone("{ cylinder = 3 }"), "a table");
   says(zone("{ cylinder = { diameter = \"0.2 m/s^2\", length = \"3 mm\" } }"), "is not an angle");
-  says(zone("{ cylinder = { diameter = \"0.2 m/s^2\" }, planes = { width = \"1 m/s^2\" } }"), "a cylinder alone");
+  says(zone("{ cylinder = { diameter = \"0.2 m/s^2\" }, planes = { width = \"1 m/s^2\" } }"),
+       "found planes and cylinder, expected one distribution");
   says(zone("{ cylinder = { diameter = \"0.2 m/s^2\" }, truncate = [\"0 m/s^2\", \"1 m/s^2\"] }"), "a cylinder alone");
   says(zone("{ cylinder = { diameter = \"0.2 m/s^2\" }, zone = \"unifrm\" }"), "did you mean uniform?");
   says(zone("{ planes = { width = \"0 m/s^2\" } }", "parameter", "\"gravity.x\""), "more than 0");
