@@ -208,7 +208,7 @@ TEST_F(CalibrateErrorsProgram, FindsTheExamplesErrorsAndShowsThemAsTyped) {
   }
   EXPECT_EQ(summary["rung"], "multibody");
   EXPECT_EQ(summary["combinations"].size(), 0u);
-  EXPECT_NE(ended.out.find("error.IE: -40.2 arcsec ± 0.15"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("error.IE: -40.2 arcsec ± 0.16"), std::string::npos) << ended.out;
   EXPECT_EQ(summary["next_tests"].size(), 2u);
   std::ofstream(folder_ / "scatter.toml") << "format = 1\nmechanism = \"altaz-gimbal.toml\"\n"
                                           << text("out/posterior.toml") << "\n[montecarlo]\nsamples = 5\n";
