@@ -10,6 +10,7 @@
 
 #include "boresight_analyses/statistics/bonett.hpp"
 #include "boresight_analyses/statistics/gaffke.hpp"
+#include "boresight_analyses/statistics/hall.hpp"
 #include "boresight_analyses/statistics/unseen_share.hpp"
 
 namespace boresight {
@@ -72,9 +73,9 @@ ReplicatedSamples::ReplicatedSamples(std::vector<std::vector<double>> replicates
 ReplicatedInterval mean_over_replicates(const std::vector<double>& values, double confidence) {
   if (values.size() < 2) throw std::invalid_argument("one replicate of a design has no interval: two are needed");
   const auto n = static_cast<std::int64_t>(values.size());
-  const double mean = gsl_stats_mean(values.data(), 1, values.size());
-  const double half = student(confidence, n) * standard_error(values);
-  return {mean, mean - half, mean + half, confidence, confidence, false, "Student's t" + over(n)};
+  const MeanInterval m = skewed_mean_interval(values, confidence);
+  return {
+      m.mean, m.low, m.high, confidence, confidence, false, "Student's t" + over(n) + ", Hall's for their skewness"};
 }
 
 ReplicatedInterval ReplicatedSamples::mean(double confidence) const {

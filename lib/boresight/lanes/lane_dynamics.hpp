@@ -86,7 +86,7 @@ class LaneDynamics : public LanePlay<T, Layout> {
       into_force(joint.source[k], wrench.force[k]);
       of.change[joint.source[k]] += wrench.force[k].v[kSpin] * spin_change;
     });
-    const D moment = Base::moment_about_centre(motion, wrench, 1);
+    const D moment = moment_about_insert(motion, wrench, 1);
     const T rate = moment.v[kSpin] * spin_change;
     each_index<N>(N, [&](auto j) {
       const int gain = joint.spin_gain + j;

@@ -213,7 +213,9 @@ class LaneForces : public LanePlay<T, AnyLayout> {
       });
     };
     for (int l = 0; l < 3; ++l) keep(l, wrench.force[l]);
-    for (int s = 0; s < spins; ++s) keep(3 + s, Base::moment_about_centre(motion, wrench, tilts ? s : 1));
+    for (int s = 0; s < spins; ++s)
+      keep(3 + s,
+           tilts && s == 1 ? moment_along_insert(motion, wrench) : moment_about_insert(motion, wrench, tilts ? s : 1));
     loads.any = any(some);
     if (!loads.any) return;
 

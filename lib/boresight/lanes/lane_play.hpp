@@ -80,13 +80,6 @@ class LanePlay {
                                 [&](auto k) { motion.w[tilts ? k : 1] = D(m.w[tilts ? k : 1], 2 * offsets + k); });
     return motion;
   }
-
-  // The i-th component of a wrench's moment about the journal's centre: what works on the relative spin.
-  template <typename D>
-  static D moment_about_centre(const PlayMotion<D>& motion, const PlayLoad<D>& wrench, int i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    return wrench.moment[i] - (motion.e[j] * wrench.force[k] - motion.e[k] * wrench.force[j]);
-  }
 };
 
 }  // namespace boresight

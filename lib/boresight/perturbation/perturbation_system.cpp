@@ -11,6 +11,8 @@
 namespace boresight {
 namespace {
 
+constexpr int kFirstSlope = 9;  // of the numbers of a motion
+
 std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::vector<JointPlay>& joints,
                                         bool keep_events, double start) {
   std::vector<ContactTracker> trackers;
@@ -105,6 +107,13 @@ void PerturbationSystem::jacobian(double t, const VecX& y, MatX& J) const {
     const PlayMotion<double> motion = play_motion(at, joint, scene, y.data(), y.data() + n);
     const JointPlay& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
     contact_jacobian(law, motion, trackers_[c].memory().impact_speed, MomentAbout::insert, of_motion);
+    if (joint.tilts) {  // moment_along_insert()
+      PlayWrench<double> wrench;
+      law.wrench(motion, trackers_[c].memory().impact_speed, wrench);
+      of_motion.row(4) += motion.slope[0] * of_motion.row(3) + motion.slope[1] * of_motion.row(5);
+      of_motion.row(4).segment<2>(kFirstSlope) +=
+          Eigen::RowVector2d(moment_about_insert(motion, wrench, 0), moment_about_insert(motion, wrench, 2));
+    }
     motion_gain(at, joint, scene, gain_);
     // A wrench works on e_dot and w: it acts on the coordinates as these follow their rates.
     virtual_gain_.topRows<3>() = gain_.block(3, n, 3, n);

@@ -160,7 +160,7 @@ std::shared_ptr<const SceneTables> pushed_by(const SecondOrder& beyond, double t
 void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanism,
                             const std::shared_ptr<const SceneTables>& tables, const RunOptions& options,
                             double tolerance, const FollowOn& follow, RunResult& result) {
-  if (beyond.unseen || beyond.missed.empty() || !all_stay_masses(beyond.missed, *tables)) return;
+  if (beyond.missed.empty() || !all_stay_masses(beyond.missed, *tables)) return;
   RunOptions beside = options;
   beside.sample_spacing = beside.frame_spacing = 0.0;
   beside.pose_bodies.clear();

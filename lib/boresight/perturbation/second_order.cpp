@@ -190,8 +190,6 @@ class LeftOut {
     const auto of_all = [](double share) { return std::isfinite(share) ? std::min(share, 1.0) : 1.0; };
     SecondOrder found;
     found.free = coordinates_.leftover() > 0;
-    found.unseen = found.free && std::any_of(at_.joints.begin(), at_.joints.end(),
-                                             [](const SceneLayout::Joint& joint) { return joint.twists; });
     found.missed = missed_;
     found.start = at_rest.start;
     for (int k = 0; k < kKinds; ++k) {
@@ -214,7 +212,6 @@ class LeftOut {
         of_kind += is_free(g) ? part * pushed_off_[g] : std::min(part * pushed_off_[g], by_forces + astray);
       }
       found.whole[k] = of_all(std::max(of_kind, by_rest));
-      if (found.unseen) found.pose[k] = found.whole[k] = 1.0;
     }
     return found;
   }

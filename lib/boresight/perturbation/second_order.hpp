@@ -84,9 +84,6 @@ struct SecondOrder {
   PerQuantity whole =
       {};             // by all of it; 1 where a deviation cannot be made exactly (a singular pose within its reach)
   bool free = false;  // whether there is a freedom that nothing drives
-  // Corners of a pad push on a twist as well as on offsets. Where nothing drives it, loads that are held on offsets alone do not show what that
-  // does: all of it is 1.
-  bool unseen = false;
   std::vector<Missed> missed;  // in the order of time, where it is wanted
   VecX start;  // likewise: of the coordinates and their rates as journals rest, beyond the linear balance
 };

@@ -224,6 +224,7 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
                   error, 2.0 * spacing_);
     throw ComputationError(text);
   }
+  if (coordinates_.leftover() > 0 && moving()) let_contacts_share(grid, ideal, kLargestMissOfTables);
 }
 
 // The rate below which stiffness between the contacts does next to nothing to the deviation [1/s]: that of the motion, or that at which

@@ -16,6 +16,8 @@
 // by contact it is to the contact forces as the offsets to the mechanism's size, and part of the model error (perturbation.cpp).
 // Where redundant joints tie offsets together, which of them are coordinates is the drawing's choice, and must not matter: T^T [M T'' +
 // (gyroscopic - w x) T'] is then kept, which says that it is the bodies' motion T z that has no force of its own, and not z.
+// Where offsets are tied together besides, how contacts share the load decides what a tilt does to such a freedom: they are taken to share it
+// as where the drawn journals rest (shared_stiffness.cpp).
 // The generalised contact force of a joint is its whole wrench on the journal: the force along the offset, the moment
 // through what z does to the relative spin, w_rel = w_ideal + S zdot, and on a cylindrical joint the axial friction through what
 // it does to the slide, s_ideal + Y z, and its rate, s_ideal' + Y zdot. Where a sleeve's ends push along a tilted journal is of second order in
@@ -146,6 +148,9 @@ class ClearanceScene {
   // at_rest: for a balance of forces, which does not ask how the coordinates change.
   void append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row, bool at_rest = false,
                   SceneForm form = SceneForm::accelerations) const;
+  // Where a freedom is not driven and offsets are tied together: takes A K anew at every knot, under the loads that contacts share out between
+  // them where journals rest, if that is as smooth in time as a table asks for.
+  void let_contacts_share(const Parameters& parameters, const IdealMotion& ideal, double most_missed);
   double slowest_rate(const std::vector<double>& rows, const Parameters& parameters) const;
   double interpolation_error(const std::vector<double>& rows, const Parameters& parameters) const;
   // Whose journals the loads of the motion tip over, and which nothing holds.

@@ -17,10 +17,10 @@ constexpr double kDisplacement = 1e-5;
 
 MatX deviation_stiffness(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
                          DeviationCoordinates& coordinates, const IdealState& state, const MatX& T, const MatX& AC,
-                         const VecX& r) {
+                         const VecX& r, const VecX& near) {
   const auto formulation = make_tree_formulation(mechanism, parameters, &ideal, {});
   formulation->forces().replace_contact(
-      SharedReactions(OffsetLayout(mechanism), parameters, coordinates.offsets_per_coordinate(T)).of(r));
+      SharedReactions(OffsetLayout(mechanism), parameters, coordinates.offsets_per_coordinate(T)).of(r, near));
   const std::vector<ContactMemory> memory(mechanism.clearances());
   const int n = coordinates.count();
   MatX acceleration(n, n), rate(n, n), place(n, n);

@@ -14,8 +14,10 @@
 namespace boresight {
 
 // state, T: of the ideal motion at that instant; AC: M_r^-1 C there; r: the load on the coordinates (T^T (Q - M vdot_ideal)).
+// near: where redundant joints tie offsets together, loads on all offsets that those which act differ least from (OffsetLayout); empty: the
+// least act.
 MatX deviation_stiffness(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
                          DeviationCoordinates& coordinates, const IdealState& state, const MatX& T, const MatX& AC,
-                         const VecX& r);
+                         const VecX& r, const VecX& near = VecX());
 
 }  // namespace boresight

@@ -67,6 +67,20 @@ PlayMotion<T> play_motion(const Layout& at, const Joint& joint, const S* scene, 
   return m;
 }
 
+// Of a wrench's moment about the insert's centre, what works on the relative spin: the i-th component in the seat's axes ...
+template <typename T>
+T moment_about_insert(const PlayMotion<T>& m, const PlayLoad<T>& wrench, int i) {
+  const int j = (i + 1) % 3, k = (i + 2) % 3;
+  return wrench.moment[i] - (m.e[j] * wrench.force[k] - m.e[k] * wrench.force[j]);
+}
+// ... and of a tilted insert, in the place of that along the seat's axis, what turns it about its own: what couples_of() finds on the roll, to
+// first order in the slopes. Couples on slopes alone leave a journal's turn alone, although their moment has a part along the seat's axis.
+template <typename T>
+T moment_along_insert(const PlayMotion<T>& m, const PlayLoad<T>& wrench) {
+  return moment_about_insert(m, wrench, 1) + m.slope[0] * moment_about_insert(m, wrench, 0) +
+         m.slope[1] * moment_about_insert(m, wrench, 2);
+}
+
 // Adds a joint's wrench to the generalised force (n numbers).
 template <typename Layout, typename Joint, typename T, typename S>
 void add_generalised_force(const Layout& at, const Joint& joint, const S* scene, const PlayMotion<T>& motion,
@@ -82,10 +96,11 @@ void add_generalised_force(const Layout& at, const Joint& joint, const S* scene,
     }
   }
   // The moment about the journal's centre works on the relative spin.
-  const Vec3T<T> moment = wrench.moment - motion.e.cross(wrench.force);
   for (int i = 0; i < joint.spins; ++i) {
     const S* gain = scene + joint.spin_gain + i * at.n;
-    const T& m = moment[joint.spins == 3 ? i : 1];
+    const int axis = joint.spins == 3 ? i : 1;
+    const T m =
+        joint.tilts && axis == 1 ? moment_along_insert(motion, wrench) : moment_about_insert(motion, wrench, axis);
     for (int j = 0; j < at.n; ++j) force[j] = fused(T(gain[j]), m, force[j]);
   }
 }

@@ -155,17 +155,19 @@ PlayMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z) c
   return m;
 }
 
+PlayOffsets RestingBalance::load_on(std::size_t joint, const PlayMotion<double>& motion) const {
+  PlayWrench<double> wrench;
+  joints_[joint].wrench(motion, kSlowImpacts, wrench);
+  PlayOffsets load;
+  load << wrench.force, couples_of(Vec3(wrench.moment - motion.e.cross(wrench.force)), motion);
+  return load;
+}
+
 VecX RestingBalance::left(const VecX& offsets) const {
   const VecX z = completed(offsets);
   VecX F = -stiffness_ * z;
-  PlayWrench<double> wrench;
-  for (std::size_t c = 0; c < joints_.size(); ++c) {
-    const PlayMotion<double> motion = motion_of(c, z);
-    joints_[c].wrench(motion, kSlowImpacts, wrench);
-    PlayOffsets load;
-    load << wrench.force, couples_of(Vec3(wrench.moment - motion.e.cross(wrench.force)), motion);
-    F.noalias() += works_on_[c].transpose() * load;
-  }
+  for (std::size_t c = 0; c < joints_.size(); ++c)
+    F.noalias() += works_on_[c].transpose() * load_on(c, motion_of(c, z));
   return reaction_ + balanceable(F);
 }
 

@@ -63,6 +63,8 @@ class RestingBalance {
   const MatX& unit() const { return unit_; }  // z = unit y: y of length 1 makes offsets of that length
   const std::vector<JointPlay>& joints() const { return joints_; }  // elastic, without friction
   PlayMotion<double> motion_of(std::size_t joint, const VecX& z) const;
+  // What contact loads a joint's offsets with, these as they are in motion_of() [N, N m].
+  PlayOffsets load_on(std::size_t joint, const PlayMotion<double>& motion) const;
   // Of a joint: its offsets are gain z + shift. 5 x n, 5.
   const MatX& offset_gain(std::size_t joint) const { return offsets_of_[joint]; }
   const PlayOffsets& offset_shift(std::size_t joint) const { return shift_[joint]; }

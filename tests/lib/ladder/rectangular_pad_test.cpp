@@ -292,6 +292,29 @@ TEST(RectangularPadInItsSlot, ThatNothingTurnsIsNotStatedToBeNearerThanItIs) {
   }
 }
 
+// How such a stage turns is decided, to first order, by which of its corners carry it and by how these turn with it: both rungs have it stand
+// alike, and turn alike as its rotor carries it round.
+TEST(RectangularPadInItsSlot, ThatNothingTurnsStandsOnTheCornersThatCarryIt) {
+  for (const PadShape shape : {PadShape::rectangular, PadShape::round})
+    for (const char* law : {"0*t", "12*t"}) {
+      MechanismDescription m = turntable(law, Vec3(0.03, 0.01, 0.01), true);
+      m.joints.back().type = JointType::spherical;
+      m.joints.back().point = Vec3(0.1, 0.0, 0.0);
+      m.clearances[0].contact_law = "flores";
+      m.clearances[0].pad = shape;
+      if (shape == PadShape::round) {
+        m.clearances[0].parameters.width = m.clearances[0].parameters.length = 0.0;
+        m.clearances[0].parameters.pad_radius = 0.5 * kWidth;
+      }
+      const auto mechanism = scenes::build(m);
+      const RunResult exact = make_rung("multibody", mechanism)->run(mechanism->parameters(), {});
+      const RunResult linear = make_rung("perturbation", mechanism)->run(mechanism->parameters(), {});
+      EXPECT_NEAR(linear.index.position_error.max, exact.index.position_error.max,
+                  0.01 * exact.index.position_error.max)
+          << static_cast<int>(shape) << " " << law;
+    }
+}
+
 // Nothing to cross leaves the ideal joint's motion, up to what its contact gives way by; little leaves little.
 TEST(RectangularPadInItsSlot, WithoutAGapIsAnIdealJoint) {
   const auto error = [](double gap) {
