@@ -1,6 +1,6 @@
 # boresight_test(NAME [SOURCES file...] [LINKS target...] [TIMEOUT seconds] [LONG seconds] [NIGHT seconds]): the program NAME and its tests, one of
 # CTest for each. SOURCES: every .cpp of the folder, where none are given. LINKS: rooms (math) or other targets. Tests with "Long" in their name are
-# labelled so and have LONG seconds instead of TIMEOUT (120). Those with "Night" in it run together, as Night.NAME, within NIGHT seconds and by
+# labelled so and have LONG seconds instead of TIMEOUT (300). Those with "Night" in it run together, as Night.NAME, within NIGHT seconds and by
 # `ctest -C Night` alone. In a new build folder the files of a program are compiled in batches, which takes less than half of the time; so what is
 # not in a header stands in a namespace of its file's name.
 include(GoogleTest)
@@ -19,7 +19,7 @@ function(boresight_test name)
     file(GLOB test_SOURCES CONFIGURE_DEPENDS *.cpp)
   endif()
   if(NOT test_TIMEOUT)
-    set(test_TIMEOUT 120)
+    set(test_TIMEOUT 300)
   endif()
   boresight_rooms_of(links ${test_LINKS})
   add_executable(${name} ${test_SOURCES})

@@ -276,8 +276,7 @@ TEST(RectangularPadInItsSlot, IsFollowedAlikeByAllRungsAsItTurns) {
   }
 }
 
-// A stage that hangs from its rotor by a ball is turned by nothing: what its corners do to that turn, held loads do not show. Where the rung is
-// off, it says so.
+// A stage that hangs from its rotor by a ball is turned by nothing but its corners: where the rung is off, it says so.
 TEST(RectangularPadInItsSlot, ThatNothingTurnsIsNotStatedToBeNearerThanItIs) {
   MechanismDescription m = turntable("0*t", Vec3(0.03, 0.01, 0.01), true);
   m.joints.back().type = JointType::spherical;
