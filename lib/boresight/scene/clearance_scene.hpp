@@ -19,10 +19,10 @@
 // Where offsets are tied together besides, how contacts share the load decides what a tilt does to such a freedom: they are taken to share it
 // as where the drawn journals rest (shared_stiffness.cpp).
 // The generalised contact force of a joint is its whole wrench on the journal: the force along the offset, the moment
-// through what z does to the relative spin, w_rel = w_ideal + S zdot, and on a cylindrical joint the axial friction through what
+// through what z does to the relative spin, w_rel = w_ideal + S zdot (of a tilted journal, what the moment does along its own axis), and on a cylindrical joint the axial friction through what
 // it does to the slide, s_ideal + Y z, and its rate, s_ideal' + Y zdot. Where a sleeve's ends push along a tilted journal is of second order in
 // z, yet as large as the play where the sleeve is short. Contacts that turn with their
-// insert about its axis (corners of a pad) lie where its twist takes them, that of the ideal motion and what z adds. Where T'' is kept so are S' z and Y' z. No number of a contact changes any of this.
+// insert about its axis (corners of a pad) lie where its twist takes them, that of the ideal motion and what z adds. Where T'' is kept so are S' z and Y' z. Of a contact's numbers none but the drawn ones changes any of this.
 // Masses and gravity enter M_r, C and r affinely, so a payload, body-mass or gravity sweep needs no new scene (unless the ideal motion
 // itself hangs on them).
 // Derived for this program; held against the multibody rung in a test.

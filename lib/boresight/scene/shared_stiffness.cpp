@@ -4,6 +4,7 @@
 // pad turns another way than one that stands on all. So to first order in the deviation its turn hangs on the sharing, which the balance of
 // forces leaves open and the contacts' elasticity decides.
 #include "boresight/math/dense_solves.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight/scene/clearance_scene.hpp"
 #include "boresight/scene/deviation_stiffness.hpp"
 #include "boresight/scene/resting_start.hpp"
@@ -34,6 +35,8 @@ void ClearanceScene::let_contacts_share(const Parameters& parameters, const Idea
   for (Knot& knot : knots_) {
     least.push_back(knot.stiffness);
     if (!rests) continue;
+    work_reached("sharing loads between contacts",
+                 static_cast<double>(least.size()) / static_cast<double>(knots_.size()));
     row.clear();
     append_row(parameters, knot, row, true);
     const VecX near = loads_at_rest(offsets_, RestingBalance(layout_, row.data(), plays));
