@@ -45,7 +45,7 @@ def records(folder):
             if ran.returncode != 0:
                 sys.exit(f"{program} failed:\n{ran.stdout}{ran.stderr}")
         rows = [line.split("\t") for line in log.read_text().splitlines()]
-    silent = files - {row[0].split("/tests/")[-1] for row in rows}
+    silent = files - {("/" + row[0]).split("/tests/")[-1] for row in rows}
     if silent:
         sys.exit("include printed.hpp and record nothing: " + ", ".join(sorted(silent)))
     return sorted(rows, key=lambda row: (row[0], row[1]))  # not as the tests happen to be linked
